@@ -36,7 +36,7 @@ NUMBERS: dict[str, tuple[float, ...]] = {
     "DWORD": (0, 2**32 - 1),
     "BYTE": (0, 255),
     "USINT": (0, 255),
-    **dict.fromkeys(("BOOL", "MC_CAM_ID"), ()),
+    **dict.fromkeys(("BOOL", "MC_CAM_ID", "STRING"), ()),
 }
 """Absurd values by type; those of an enumeration are of none of its names. A new type has to be added."""
 AXES = {"Axis": "Axis", "Slave": "Axis", "Master": "Master", "Master1": "Master", "Master2": "Other"}

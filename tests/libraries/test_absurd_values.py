@@ -59,6 +59,7 @@ WITHOUT_EFFECT = {
     *(("MC_TorqueControl", pin) for pin in ("Acceleration", "Deceleration", "Jerk")),
     ("SMC_Homing", "fIndexPosition"),
     ("AxisPanel", "fPatience"),
+    ("AxisPanel", "fDuration"),
 }
 """Inputs that do not count in this use of the block, or whose absurd values mean something."""
 OPEN = {
@@ -139,6 +140,21 @@ def test_an_absurd_value_leaves_the_axis_controllable(case: tuple[str, Pin, floa
         if counts and not (math.isfinite(value) or unlimited):
             assert error, "no motion has such a value"
         _take_control(axes, block)
+
+
+@pytest.mark.parametrize("duration", [math.nan, math.inf, -math.inf, -1.0, 0.0, 5e-324])
+def test_a_measurement_has_an_end(duration: float) -> None:
+    """The duration of a step counts in this command of the panel alone."""
+    with all_blocks(False) as axes:
+        _begin(axes, "AxisPanel")
+        axes.set("AxisPanel", fPosition=1.0, fDuration=duration, eCommand=7, udiCommand=2)
+        axes.cycle(100)
+        refused = axes.text("AxisPanel.eError") == "SMC_INVALID_SET_VALUES"
+        assert refused == (not 0.0 < duration < math.inf)
+        assert axes.text("AxisPanel.ePhase") == "Idle" or not refused
+        axes.cycle(400)
+        assert axes.text("AxisPanel.ePhase") == "Idle"
+        _take_control(axes, "AxisPanel")
 
 
 def _take_control(axes: AllBlocks, block: str) -> None:

@@ -91,7 +91,7 @@ class CamMachine(RuleBasedStateMachine):
         velocity: float,
         cycles: int,
     ) -> None:
-        self.pair.write(f"nCam{block[-1]}", cam)
+        self._give_cam(int(block[-1]), cam)
         if velocity > -50.0:
             self.run_master(velocity, 1000.0, 1)
         self._start(
@@ -124,12 +124,15 @@ class CamMachine(RuleBasedStateMachine):
     @rule(cam=st.sampled_from((1, 2)), number=st.sampled_from((1, 2)))
     def another_cam_from_the_next_cycle_on(self, cam: int, number: int) -> None:
         """Behind the end of a cam the next one begins where the master is: without ramp_in by a step."""
+        self._give_cam(number, cam)
+        self.step()
+
+    def _give_cam(self, number: int, cam: int) -> None:
         self.pair.write(f"nCam{number}", cam)
         ended = self.pair.true(f"CamIn{number}.EndOfProfile")
         if ended and self.pair.text(f"CamIn{number}.fbCoupling.stStart.eMode") == "relative":
             self.pair.cycle()
             self.before = (self.pair.slave, self.pair.velocity)
-        self.step()
 
     @rule(velocity=st.floats(-200.0, 200.0), up=ramps, cycles=st.sampled_from((30, 300, 2000)))
     def run_master(self, velocity: float, up: float, cycles: int) -> None:

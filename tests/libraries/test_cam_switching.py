@@ -124,14 +124,16 @@ def test_a_cam_that_has_ended_hands_over_what_lies_beyond() -> None:
         assert pair.slave == pytest.approx(380.0, abs=1e-9)
 
 
-def test_with_ramp_in_the_slave_makes_up_for_what_lies_beyond() -> None:
-    """CAM-110: the master has gone on while the slave stood at the end of the first cam."""
+@pytest.mark.parametrize(("periodic", "cycles"), [(False, 0), (True, 0), (True, 2)])
+def test_with_ramp_in_the_slave_makes_up_for_what_lies_beyond(periodic: bool, cycles: int) -> None:
+    """CAM-110: the master has gone on while the slave stood at the end of the first cam; a second one that is
+    periodic leaves out its whole cycles."""
     with cam_pair(FIRST) as pair:
         pair.give(2, SECOND)
         pair.select(1, periodic=False, slave_absolute=False)
-        pair.select(2, periodic=False, slave_absolute=False)
+        pair.select(2, periodic=periodic, slave_absolute=False)
         pair.couple(StartMode=RAMP_IN, VelocityDiff=50.0, Acceleration=500.0, Deceleration=500.0)
-        pair.step(380.0)
+        pair.step(380.0 + 360.0 * cycles)
         pair.cycle(10)
         pair.write("nCam1", 2)
         places = [pair.slave]

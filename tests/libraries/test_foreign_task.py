@@ -23,7 +23,7 @@ READERS = {
     *("SMC_CheckAxisCommunication", "SMC_CheckLimits", "SMC_GetMaxSetAccDec", "SMC_GetMaxSetVelocity"),
     *("SMC_GetTrackingError", "SMC_InPosition", "SMC_MeasureDistance", "SMC_GetCamSlaveSetPosition"),
     *("MC_DigitalCamSwitch", "SMC_CamRegister", "MC_CamTableSelect", "SMC_AxisDiagnosticLog"),
-    "SMC_StartupDrive",
+    *("SMC_DigitalCamSwitch_HighPrecision", "SMC_StartupDrive"),
 }
 """They change nothing of an axis by themselves, so that they may be called anywhere."""
 REFUSED_BEFORE = {

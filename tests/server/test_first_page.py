@@ -35,11 +35,13 @@ async def main():
 
 asyncio.run(main())
 """
-ROOMS = {"iec", "project", "server", "runtime", "codegen", "lang", "libraries", "translation"}
+ROOMS = {"iec", "project", "server", "runtime", "codegen", "lang", "libraries", "motion", "translation"}
 LANGUAGE = {"coding_settings", "diagnostic_translations", "diagnostics", "nearest", "reference", "source"}
 """The tables of messages and of help, and what reports of other processes consist of."""
 CODE = {"display", "literals", "package", "symbol_map", "symbol_types", "values"}
 """How a package and the values in a running one are read."""
+MOTION = {"axis_measurement", "loops"}
+"""What is asked of a controller to measure an axis; a process of its own computes with the answer."""
 UNWANTED = {
     "llvmlite", "lsprotocol", "httpx", "viser", "numpy", "rich", "sqlalchemy.dialects.postgresql",
     "tappet.libraries.catalog", "tappet.project.exchange.importing", "tappet.project.exchange.plcopen_write",
@@ -61,6 +63,7 @@ def test_pages_are_served_without_the_compiler(tmp_path: Path) -> None:
     assert rooms == ROOMS
     assert {parts[2] for parts in names if parts[1] == "lang" and parts[2:]} == LANGUAGE
     assert {parts[2] for parts in names if parts[1] == "codegen" and parts[2:]} == CODE
+    assert {parts[2] for parts in names if parts[1] == "motion" and parts[2:]} == MOTION
     assert UNWANTED.isdisjoint(loaded), UNWANTED.intersection(loaded)
 
 
