@@ -15,6 +15,7 @@ MOVES = ("Absolute", "Relative", "Additive", "Velocity", "Halt", "Stop")
 BLOCKS = tuple(f"{name}{number}" for name in MOVES for number in (1, 2))
 SUPERIMPOSED = ("Super1", "Super2")
 MOTIONS = tuple(block for block in BLOCKS if not block.startswith("Stop"))
+WITH_ACTIVE = tuple(block for block in BLOCKS if not block.startswith(("Halt", "Stop")))
 FASTEST = 200.0
 STEEPEST = 1000.0
 """Acceleration of a command; a superimposed motion comes besides."""
@@ -137,8 +138,21 @@ class AxisMachine(RuleBasedStateMachine):
 
     @rule(cycles=st.sampled_from((1, 7, 50, 400)))
     def wait(self, cycles: int) -> None:
-        for _ in range(cycles):
+        """No command is given meanwhile: one is aborted by one that waited for its turn, or by an error.
+
+        A block that is called before the one of the new command sees a cycle later that it is aborted.
+        """
+        self.step()
+        before = self._told()
+        waits = any("Busy" in before[block] and "Active" not in before[block] for block in WITH_ACTIVE)
+        for _ in range(cycles - 1):
             self.step()
+        after = self._told()
+        aborted = [block for block in after if "CommandAborted" in after[block] - before[block]]
+        assert not aborted or waits or self.axis.state == "errorstop"
+
+    def _told(self) -> dict[str, set[str]]:
+        return {block: self.axis.outputs(block) for block in (*BLOCKS, *SUPERIMPOSED)}
 
     @rule(by=st.floats(-100.0, 100.0))
     def set_position(self, by: float) -> None:
