@@ -24,11 +24,21 @@ def example(page: Page, server: Server) -> str:
     return f"/projects/{next(one['id'] for one in projects if one['name'] == 'Bottling line')}"
 
 
+def stored(page: Page, server: Server, project: str, name: str) -> dict[str, Any]:
+    """The object of a name, with its data."""
+    item = next(one for one in fetch(page, server, "GET", f"{project}/objects") if one["name"] == name)
+    return dict(fetch(page, server, "GET", f"{project}/objects/{item['id']}"))
+
+
+def change(page: Page, server: Server, project: str, name: str, **data: Any) -> None:
+    """A change of some data of an object that somebody else makes."""
+    item = stored(page, server, project, name)
+    body = {"base_revision": item["revision"], "data": item["data"] | data}
+    fetch(page, server, "PUT", f"{project}/objects/{item['id']}", data=body)
+
+
 def write(page: Page, server: Server, project: str, name: str, old: str, new: str) -> None:
     """A change of a text that somebody else makes."""
-    item = next(one for one in fetch(page, server, "GET", f"{project}/objects") if one["name"] == name)
-    path = f"{project}/objects/{item['id']}"
-    data = fetch(page, server, "GET", path)["data"]
+    data = stored(page, server, project, name)["data"]
     field = next(field for field in ("implementation", "declaration") if old in data.get(field, ""))
-    data[field] = data[field].replace(old, new, 1)
-    fetch(page, server, "PUT", path, data={"base_revision": item["revision"], "data": data})
+    change(page, server, project, name, **{field: data[field].replace(old, new, 1)})

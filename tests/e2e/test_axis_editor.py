@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import Any
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from .api import fetch
+from .api import fetch, stored
 from .conftest import Server
 from .workbench import implementation, log_in, objects_stored, open_object, open_project, tree_item
 
@@ -42,12 +41,6 @@ def add(page: Page, parent: str, kind: str) -> None:
     ).first.click()
     dialog.locator("button[type=submit]").click()
     expect(dialog).to_have_count(0)
-
-
-def stored(page: Page, server: Server, project: str, name: str) -> dict[str, Any]:
-    objects = fetch(page, server, "GET", f"{project}/objects")
-    item = next(one for one in objects if one["name"] == name)
-    return dict(fetch(page, server, "GET", f"{project}/objects/{item['id']}"))
 
 
 def editor(page: Page) -> Locator:

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from .api import fetch
+from .api import change, fetch, stored
 from .conftest import Server, new_profile
-from .test_axis_editor import add_drive, editor, stored
+from .test_axis_editor import add_drive, editor
 from .workbench import log_in, objects_stored, open_object, open_project, tree_item
 
 pytestmark = pytest.mark.e2e
@@ -32,12 +32,6 @@ def project(page: Page, server: Server) -> str:
     page.reload()
     open_project(page, PROJECT)
     return f"/projects/{made['id']}"
-
-
-def change(page: Page, server: Server, project: str, name: str, **data: Any) -> None:
-    item = stored(page, server, project, name)
-    body = {"base_revision": item["revision"], "data": item["data"] | data}
-    fetch(page, server, "PUT", f"{project}/objects/{item['id']}", data=body)
 
 
 def write(page: Page, server: Server, expression: str, value: Any) -> None:

@@ -10,13 +10,14 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, Page, ViewportSize, expect
 
-from .api import fetch
+from .api import change, fetch, stored
 from .conftest import Server, new_profile, start_page
 from .workbench import objects_stored, open_object, open_project
 
 pytestmark = [pytest.mark.e2e, pytest.mark.slow]
 
 PROJECT = "Large cam"
+CAM = "A_Cam_Of_Many_Points"
 COUNT = 1_000
 SIZES: dict[str, ViewportSize] = {
     "small": {"width": 1280, "height": 800},
@@ -24,21 +25,17 @@ SIZES: dict[str, ViewportSize] = {
 }
 
 
-def _stored_cam(page: Page, server: Server) -> tuple[str, str]:
+def _stored_cam(page: Page, server: Server) -> str:
     """A project with a rising cam of many points, by a law and its derivatives."""
     made = fetch(page, server, "POST", "/projects", data={"name": PROJECT})
     path = f"/projects/{made['id']}"
     objects = fetch(page, server, "GET", f"{path}/objects")
     application = next(item for item in objects if item["kind"] == "application")
-    item = fetch(
-        page, server, "POST", f"{path}/objects",
-        data={"kind": "cam", "name": "A_Cam_Of_Many_Points", "parent_id": application["id"]},
-    )  # fmt: skip
-    stored = fetch(page, server, "GET", f"{path}/objects/{item['id']}")
-    data = stored["data"]
+    cam = {"kind": "cam", "name": CAM, "parent_id": application["id"]}
+    fetch(page, server, "POST", f"{path}/objects", data=cam)
     turn = 2 * math.pi / 360
     places = [360 * index / (COUNT - 1) for index in range(COUNT)]
-    data["points"] = [
+    points = [
         {
             "x": x,
             "y": x - math.sin(x * turn) / turn,
@@ -47,14 +44,12 @@ def _stored_cam(page: Page, server: Server) -> tuple[str, str]:
         }
         for x in places
     ]
-    data["segments"] = [{"law": data["segments"][0]["law"]} for _ in places[1:]]
-    body = {"data": data, "base_revision": stored["revision"]}
-    fetch(page, server, "PUT", f"{path}/objects/{item['id']}", data=body)
-    return path, item["id"]
+    change(page, server, path, CAM, points=points, segments=[{"law": "poly5"}] * (COUNT - 1))
+    return path
 
 
-def _points(page: Page, server: Server, path: str, cam: str) -> list[dict[str, Any]]:
-    return list(fetch(page, server, "GET", f"{path}/objects/{cam}")["data"]["points"])
+def _points(page: Page, server: Server, path: str) -> list[dict[str, Any]]:
+    return list(stored(page, server, path, CAM)["data"]["points"])
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -64,10 +59,10 @@ def test_a_thousand_points(browser: Browser, server: Server, size: str, theme: s
     folder.mkdir(parents=True, exist_ok=True)
     with new_profile(browser, language, theme) as profile, start_page(profile, server) as page:
         page.set_viewport_size(SIZES[size])
-        path, cam = _stored_cam(page, server)
+        path = _stored_cam(page, server)
         page.reload()
         open_project(page, PROJECT)
-        open_object(page, "A_Cam_Of_Many_Points")
+        open_object(page, CAM)
         editor = page.locator(".dv-active-group [data-panel-id]:visible").last
 
         def graph(name: str) -> Locator:
@@ -79,10 +74,10 @@ def test_a_thousand_points(browser: Browser, server: Server, size: str, theme: s
         page.keyboard.press("Home")
         for _ in range(3):
             page.keyboard.press("ArrowRight")
-        before = _points(page, server, path, cam)
+        before = _points(page, server, path)
         with objects_stored(page):
             page.keyboard.press("Control+ArrowUp")
-        after = _points(page, server, path, cam)
+        after = _points(page, server, path)
         changed = [index for index in range(COUNT) if before[index] != after[index]]
         assert len(changed) == 1
         assert after[changed[0]]["y"] > before[changed[0]]["y"]
@@ -94,4 +89,4 @@ def test_a_thousand_points(browser: Browser, server: Server, size: str, theme: s
         page.screenshot(path=folder / f"cam-{COUNT}-table-{size}-{theme}.png")
         with objects_stored(page):
             page.keyboard.press("Control+z")
-        assert _points(page, server, path, cam) == before
+        assert _points(page, server, path) == before
