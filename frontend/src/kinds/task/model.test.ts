@@ -7,7 +7,6 @@ import {
   intervalNs,
   movedPou,
   taskFaults,
-  timeLiteral,
   shownInterval,
   unitOf,
 } from './model';
@@ -23,20 +22,6 @@ const task = (changes: Partial<TaskData> = {}): TaskData => ({
 });
 
 describe('times', () => {
-  it('are TIME literals with units from large to small', () => {
-    expect(timeLiteral('T#1s500ms')).toBe(1_500_000_000);
-    expect(timeLiteral('time#2m')).toBe(120e9);
-    expect(timeLiteral('t#0.5ms')).toBe(500_000);
-    expect(['t#', 't#5', 't#5ms1s', '5ms', 'abc', 't#1s1s'].map(timeLiteral)).toEqual([
-      null,
-      null,
-      null,
-      null,
-      null,
-      null,
-    ]);
-  });
-
   it('are entered as numbers with a unit (tasks EX-04)', () => {
     expect(intervalFrom('200', 'ms')).toBe('t#200ms');
     expect(intervalFrom('300', 'us')).toBe('300');

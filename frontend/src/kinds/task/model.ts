@@ -1,4 +1,5 @@
 /** A task's settings: what may be entered, how times are read and shown (tasks.md, sections 2 and 3). Pure functions. */
+import { timeLiteral } from '@/iec/duration';
 import { valuesOf } from '@/project/kinds';
 import type { ObjectSummary, TaskData, TaskPou } from '@/api/types';
 import type { TextKey } from '@/i18n';
@@ -6,26 +7,7 @@ import { applicationOf } from '@/project/tree';
 
 export type IntervalUnit = 'ms' | 'us';
 
-const UNITS: Record<string, number> = { d: 86_400e9, h: 3_600e9, m: 60e9, s: 1e9, ms: 1e6, us: 1e3, ns: 1 };
-
-/** Nanoseconds of a TIME literal such as `t#1s500ms`; null when it is none. Units go from large to small, each once. */
-export function timeLiteral(text: string): number | null {
-  const match = /^(?:l?time|lt|t)#(.+)$/i.exec(text.trim());
-  if (!match) return null;
-  let rest = match[1]!.toLowerCase().replace(/_/g, '');
-  let total = 0;
-  let last = Infinity;
-  while (rest !== '') {
-    const part = /^(\d+(?:\.\d+)?)(ms|us|ns|d|h|m|s)/.exec(rest);
-    if (!part) return null;
-    const unit = UNITS[part[2]!]!;
-    if (unit >= last) return null;
-    last = unit;
-    total += Number(part[1]) * unit;
-    rest = rest.slice(part[0].length);
-  }
-  return Math.round(total);
-}
+const NS_OF: Readonly<Record<IntervalUnit, number>> = { ms: 1e6, us: 1e3 };
 
 /** The unit that a stored interval is shown with: a bare number counts microseconds. */
 export function unitOf(interval: string): IntervalUnit {
@@ -47,7 +29,7 @@ export function intervalFrom(entry: string, unit: IntervalUnit): string | null {
 export function shownInterval(interval: string, unit: IntervalUnit): string {
   const ns = intervalNs(interval);
   if (ns === null || ns % 1000 !== 0) return interval;
-  return String(ns / UNITS[unit]!);
+  return String(ns / NS_OF[unit]);
 }
 
 /** Nanoseconds of a stored interval; null when it is none. */
