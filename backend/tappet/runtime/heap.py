@@ -59,6 +59,11 @@ class ApplicationHeap:
         return bool(self._heap["pArena"])
 
     @property
+    def arena(self) -> tuple[int, int]:
+        """Address and size of the memory that blocks lie in."""
+        return self._heap["pArena"], self._heap["granules"] * GRANULE
+
+    @property
     def low(self) -> bool:
         """Whether pointers into it fit into DWORD."""
         return all(m.low for m in self._mappings[:1])

@@ -25,6 +25,7 @@ STRUCTURES = (
     "RECORDER_LIST", "FLIGHT_ENTRY", "FLIGHT_RECORDER", "RETAIN_SLOT", "RETAIN_GROUP", "FAULT_RECORD",
     "TASK_STATISTICS", "WATCHDOG_STATE", "TASK_CONTEXT", "APPLICATION_CONTEXT", "THREAD_ENTRY",
     "EXECUTIVE_REGISTRY", "LOG_MESSAGE", "LOG_RING", "FILE_STORE", "DESCRIPTION",
+    "EXPRESSION_STEP", "EXPRESSION", "EXPRESSION_MEMORY",
     "DESCRIBED_TYPE", "DESCRIBED_MEMBER", "DESCRIBED_ROOT", "HEAP_ARENA", "HEAP_BLOCK", "CRASH_RECORD",
 )  # fmt: skip
 """Structures of types.st that Python fills or reads."""
@@ -33,7 +34,7 @@ ENTRIES = (
     "tappet_task_thread", "tappet_scheduler_thread", "tappet_virtual_thread", "tappet_call_thread",
     "tappet_signal", "tappet_apply_values", "tappet_save_retain", "tappet_store", "tappet_store_flag",
     "tappet_load", "tappet_file_thread", "tappet_files_reset",
-    "tappet_files_sweep", "tappet_heap_begin", "tappet_heap_check",
+    "tappet_files_sweep", "tappet_heap_begin", "tappet_heap_check", "tappet_evaluate",
 )  # fmt: skip
 """What Python starts or calls."""
 
