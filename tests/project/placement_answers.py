@@ -60,6 +60,7 @@ def every_kind() -> Project:
         project = edit.delete_object(project, second.id)
     add(application.id, "persistent", "Kept")
     add(application.id, "scene", "Scene")
+    add(application.id, "trace", "Trace")
     pool = add(application.id, "axis_pool", "SoftMotion General Axis Pool")
     add(pool, "axis", "Axis")
     add(application.id, "cam", "Cam")
