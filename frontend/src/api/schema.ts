@@ -6132,7 +6132,7 @@ export interface components {
          * ObjectDetail
          * @description An object with its data, whose shape depends on `kind`.
          */
-        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["CamObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
+        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["CamObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["TraceObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ObjectMove
          * @description A new name or place; what is left out stays. A new parent without index: the end of its children.
@@ -8430,6 +8430,484 @@ export interface components {
             role: components["schemas"]["Role"];
             /** Used At */
             used_at: string | null;
+        };
+        /**
+         * TraceAppearance
+         * @description How the diagram of a record looks where all its curves share one (TRC-50 .. TRC-62).
+         */
+        TraceAppearance: {
+            /**
+             * Background
+             * @default
+             */
+            background: string;
+            /**
+             * Font Size
+             * @default 12
+             */
+            font_size: number;
+            /**
+             * Selected Background
+             * @default
+             */
+            selected_background: string;
+            /**
+             * @default {
+             *       "arrow": "none",
+             *       "description": "",
+             *       "grid": true,
+             *       "grid_color": "",
+             *       "length": "T#10s",
+             *       "major": "",
+             *       "maximum": "T#10s",
+             *       "minimum": "T#0s",
+             *       "minor": "",
+             *       "mode": "auto",
+             *       "position": "low",
+             *       "reverse": false
+             *     }
+             */
+            x: components["schemas"]["TraceTimeAxis"];
+            /**
+             * @default {
+             *       "arrow": "none",
+             *       "description": "",
+             *       "grid": true,
+             *       "grid_color": "",
+             *       "length": 100,
+             *       "major": 0,
+             *       "maximum": 100,
+             *       "minimum": 0,
+             *       "minor": 0,
+             *       "mode": "auto",
+             *       "position": "low",
+             *       "reverse": false
+             *     }
+             */
+            y: components["schemas"]["TraceValueAxis"];
+        };
+        /**
+         * TraceChannel
+         * @description A curve: a variable or expression that the runtime samples, or a formula of other channels.
+         */
+        TraceChannel: {
+            /**
+             * @default {
+             *       "arrow": "none",
+             *       "description": "",
+             *       "grid": true,
+             *       "grid_color": "",
+             *       "length": 100,
+             *       "major": 0,
+             *       "maximum": 100,
+             *       "minimum": 0,
+             *       "minor": 0,
+             *       "mode": "auto",
+             *       "position": "low",
+             *       "reverse": false
+             *     }
+             */
+            appearance: components["schemas"]["TraceValueAxis"];
+            /**
+             * Axis
+             * @default 0
+             */
+            axis: number;
+            /**
+             * Color
+             * @default
+             */
+            color: string;
+            /**
+             * Formula
+             * @description Computed from channels by their names; not recorded.
+             * @default
+             */
+            formula: string;
+            /**
+             * Graph
+             * @default line
+             * @enum {string}
+             */
+            graph: "none" | "line" | "cross" | "saw_tooth" | "step" | "points";
+            /**
+             * @default {
+             *       "color": "#ff0000",
+             *       "limit": 0,
+             *       "on": false
+             *     }
+             */
+            maximum_warning: components["schemas"]["TraceLimit"];
+            /**
+             * @default {
+             *       "color": "#ff0000",
+             *       "limit": 0,
+             *       "on": false
+             *     }
+             */
+            minimum_warning: components["schemas"]["TraceLimit"];
+            /**
+             * Name
+             * @description In the legend and in formulas.
+             * @default
+             */
+            name: string;
+            /**
+             * Variable
+             * @description Path or expression (TRC-40).
+             * @default
+             */
+            variable: string;
+            /**
+             * Visible
+             * @default true
+             */
+            visible: boolean;
+        };
+        /**
+         * TraceData
+         * @description A trace and its records (TRC-10 .. TRC-12).
+         */
+        TraceData: {
+            /**
+             * Points
+             * @description Most samples that a record keeps in the runtime.
+             * @default 10000
+             */
+            points: number;
+            /**
+             * Records
+             * @default []
+             */
+            records: components["schemas"]["TraceRecord"][];
+            /**
+             * Refresh Rate
+             * @description ms between two pictures.
+             * @default 500
+             */
+            refresh_rate: number;
+            /**
+             * Stacked
+             * @description Diagrams of records one above another.
+             * @default false
+             */
+            stacked: boolean;
+        };
+        /**
+         * TraceLimit
+         * @description Values beyond a limit are drawn in a colour of their own (TRC-43 .. TRC-46).
+         */
+        TraceLimit: {
+            /**
+             * Color
+             * @default #ff0000
+             */
+            color: string;
+            /**
+             * Limit
+             * @default 0
+             */
+            limit: number;
+            /**
+             * On
+             * @default false
+             */
+            on: boolean;
+        };
+        /**
+         * TraceObject
+         * @description A trace: variables that the runtime samples in step with a task, as curves over time.
+         */
+        TraceObject: {
+            data: components["schemas"]["TraceData"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "trace";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
+        };
+        /**
+         * TraceRecord
+         * @description Variables that one task samples into one ring (TRC-20 .. TRC-31).
+         */
+        TraceRecord: {
+            /**
+             * @default {
+             *       "background": "",
+             *       "font_size": 12,
+             *       "selected_background": "",
+             *       "x": {
+             *         "arrow": "none",
+             *         "description": "",
+             *         "grid": true,
+             *         "grid_color": "",
+             *         "length": "T#10s",
+             *         "major": "",
+             *         "maximum": "T#10s",
+             *         "minimum": "T#0s",
+             *         "minor": "",
+             *         "mode": "auto",
+             *         "position": "low",
+             *         "reverse": false
+             *       },
+             *       "y": {
+             *         "arrow": "none",
+             *         "description": "",
+             *         "grid": true,
+             *         "grid_color": "",
+             *         "length": 100,
+             *         "major": 0,
+             *         "maximum": 100,
+             *         "minimum": 0,
+             *         "minor": 0,
+             *         "mode": "auto",
+             *         "position": "low",
+             *         "reverse": false
+             *       }
+             *     }
+             */
+            appearance: components["schemas"]["TraceAppearance"];
+            /**
+             * Buffer
+             * @description Samples in the ring.
+             * @default 100
+             */
+            buffer: number;
+            /**
+             * Channels
+             * @default []
+             */
+            channels: components["schemas"]["TraceChannel"][];
+            /**
+             * Comment
+             * @default
+             */
+            comment: string;
+            /**
+             * Condition
+             * @description Samples are taken while it is TRUE.
+             * @default
+             */
+            condition: string;
+            /**
+             * Every
+             * @description Cycles between two samples.
+             * @default 1
+             */
+            every: number;
+            /**
+             * Name
+             * @default Record1
+             */
+            name: string;
+            /**
+             * Task
+             * @description Empty: the first task.
+             * @default
+             */
+            task: string;
+            /**
+             * @default {
+             *       "edge": "none",
+             *       "level": "",
+             *       "position": 50,
+             *       "variable": ""
+             *     }
+             */
+            trigger: components["schemas"]["TraceTrigger"];
+        };
+        /**
+         * TraceTimeAxis
+         * @description The X axis; `length` is what is visible while it scrolls (TRC-50 .. TRC-54).
+         */
+        TraceTimeAxis: {
+            /**
+             * Arrow
+             * @default none
+             * @enum {string}
+             */
+            arrow: "none" | "open" | "filled";
+            /**
+             * Description
+             * @default
+             */
+            description: string;
+            /**
+             * Grid
+             * @default true
+             */
+            grid: boolean;
+            /**
+             * Grid Color
+             * @default
+             */
+            grid_color: string;
+            /**
+             * Length
+             * @default T#10s
+             */
+            length: string;
+            /**
+             * Major
+             * @description Distance of long ticks; empty: chosen.
+             * @default
+             */
+            major: string | "";
+            /**
+             * Maximum
+             * @default T#10s
+             */
+            maximum: string;
+            /**
+             * Minimum
+             * @default T#0s
+             */
+            minimum: string;
+            /**
+             * Minor
+             * @default
+             */
+            minor: string | "";
+            /**
+             * Mode
+             * @default auto
+             * @enum {string}
+             */
+            mode: "auto" | "fixed" | "scrolling";
+            /**
+             * Position
+             * @default low
+             * @enum {string}
+             */
+            position: "low" | "middle" | "high";
+            /**
+             * Reverse
+             * @default false
+             */
+            reverse: boolean;
+        };
+        /**
+         * TraceTrigger
+         * @description When a record has seen what it waits for (TRC-20 .. TRC-23).
+         */
+        TraceTrigger: {
+            /**
+             * Edge
+             * @default none
+             * @enum {string}
+             */
+            edge: "none" | "positive" | "negative" | "both";
+            /**
+             * Level
+             * @description Literal, variable or enumeration value; empty for BOOL.
+             * @default
+             */
+            level: string;
+            /**
+             * Position
+             * @description Percent of the samples behind it.
+             * @default 50
+             */
+            position: number;
+            /**
+             * Variable
+             * @description BOOL, number, enumeration, or an expression.
+             * @default
+             */
+            variable: string;
+        };
+        /**
+         * TraceValueAxis
+         * @description A Y axis (TRC-61).
+         */
+        TraceValueAxis: {
+            /**
+             * Arrow
+             * @default none
+             * @enum {string}
+             */
+            arrow: "none" | "open" | "filled";
+            /**
+             * Description
+             * @default
+             */
+            description: string;
+            /**
+             * Grid
+             * @default true
+             */
+            grid: boolean;
+            /**
+             * Grid Color
+             * @default
+             */
+            grid_color: string;
+            /**
+             * Length
+             * @default 100
+             */
+            length: number;
+            /**
+             * Major
+             * @description Distance of long ticks; 0: chosen.
+             * @default 0
+             */
+            major: number;
+            /**
+             * Maximum
+             * @default 100
+             */
+            maximum: number;
+            /**
+             * Minimum
+             * @default 0
+             */
+            minimum: number;
+            /**
+             * Minor
+             * @default 0
+             */
+            minor: number;
+            /**
+             * Mode
+             * @default auto
+             * @enum {string}
+             */
+            mode: "auto" | "fixed" | "scrolling";
+            /**
+             * Position
+             * @default low
+             * @enum {string}
+             */
+            position: "low" | "middle" | "high";
+            /**
+             * Reverse
+             * @default false
+             */
+            reverse: boolean;
         };
         /**
          * TuningGain
