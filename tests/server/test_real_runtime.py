@@ -107,6 +107,13 @@ def test_from_text_to_live_values_and_back(app: FastAPI, engineer: TestClient) -
     assert engineer.post(f"{url}/login", json=target).json()["relation"] == "same"
     tasks = engineer.get(f"{RUNTIME}/tasks").json()
     assert tasks[0]["iec_cycles"] > 0
+    (times,) = engineer.get(f"{RUNTIME}/tasks/histograms").json()
+    assert times["name"] == tasks[0]["name"]
+    assert sum(one["cycles"] for one in times["classes"]) >= tasks[0]["iec_cycles"]
+    _until(lambda: engineer.get(f"{RUNTIME}/tasks/load").json()["samples"])
+    load = engineer.get(f"{RUNTIME}/tasks/load").json()
+    assert load["tasks"] == [tasks[0]["name"]]
+    assert 0 < load["samples"][-1]["tasks"][0] <= 100
 
     _save(app, info.id, "d := 0;\nn := n / d;")
     assert engineer.post(f"{url}/download", json={**order, "mode": "online_change"}).status_code == 200

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 
 from tappet.codegen.symbol_map import SymbolMap
+from tappet.runtime import monitoring
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.errors import NoApplicationError, PlcError
 from tappet.runtime.flight import FlightRecorder, FlightStatus
@@ -14,7 +15,7 @@ from tappet.runtime.forces import Force, PlacedValue
 from tappet.runtime.places import path_at
 from tappet.runtime.recorder import Recorder, RecorderSpec
 from tappet.runtime.task_group import TaskError
-from tappet.runtime.tasks import TaskStatistics
+from tappet.runtime.tasks import TaskHistogram, TaskStatistics
 
 _PATIENCE_S = 0.5
 """How long reading waits for a property that is monitored by a call."""
@@ -27,6 +28,7 @@ class ApplicationAccess:
     def __init__(self) -> None:
         self.application: LoadedApplication | None = None
         self._lock = threading.RLock()
+        self._load_history = monitoring.LoadHistory()
 
     def _need(self) -> LoadedApplication:
         if self.application is None:
@@ -159,7 +161,21 @@ class ApplicationAccess:
     def tasks(self) -> list[TaskStatistics]:
         """Task monitoring."""
         with self._lock:
-            return self._need().statistics()
+            return monitoring.statistics(self._need())
+
+    def task_histograms(self) -> list[TaskHistogram]:
+        """Execution times and jitters of the tasks in classes."""
+        with self._lock:
+            return monitoring.histograms(self._need())
+
+    def sample_load(self) -> None:
+        """Note how busy tasks and processors were since the last call; a service calls every second."""
+        with self._lock:
+            self._load_history.sample(self.application)
+
+    def load_since(self, at_ns: int) -> monitoring.Load:
+        """How busy tasks and processors were, as far as it was noted after a unix time."""
+        return self._load_history.since(at_ns)
 
     def reset_statistics(self, task: str | None) -> None:
         """Statistics of a task back to 0, of all tasks with None."""
@@ -167,6 +183,6 @@ class ApplicationAccess:
             application = self._need()
             if task is None:
                 for number in range(len(application.contexts.tasks)):
-                    application.reset_statistics(number)
+                    monitoring.reset_statistics(application, number)
             else:
-                application.reset_statistics(application.ownership.number(task))
+                monitoring.reset_statistics(application, application.ownership.number(task))

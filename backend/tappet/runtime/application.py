@@ -33,7 +33,7 @@ from tappet.runtime.retain import (
 )
 from tappet.runtime.retain_groups import by_task, remanent_of
 from tappet.runtime.task_group import TaskError, TaskGroup
-from tappet.runtime.tasks import TaskOwnership, TaskStatistics, read_statistics
+from tappet.runtime.tasks import TaskOwnership
 from tappet.runtime.threads import NORMAL, Scheduling
 from tappet.runtime.watched import WatchedProperties
 
@@ -463,25 +463,6 @@ class LoadedApplication:
     def calls_watched(self) -> bool:
         """Whether cycles run by themselves, so that it is worth waiting for a value."""
         return not self.virtual and self.tasks.state == RUNNING
-
-    # -- monitoring --------------------------------------------------------------------------------------
-
-    def statistics(self) -> list[TaskStatistics]:
-        """Task monitoring (TASK-50 .. TASK-59)."""
-        faulted = self.contexts.faulted_task()
-        rows = []
-        for i, (spec, task) in enumerate(zip(self.package.tasks, self.contexts.tasks, strict=True)):
-            status = "valid" if task["started"] else "created"
-            if spec.kind in ("event", "status") and not task["started"]:
-                status = "not created"
-            if faulted == i:
-                status = "exception"
-            rows.append(read_statistics(spec, self.contexts.statistics(task), status))
-        return rows
-
-    def reset_statistics(self, task: int) -> None:
-        """Values of the task back to 0 at its next cycle (TASK-59)."""
-        self.executive.store_flag(self.contexts.tasks[task].place("resetStatistics"), 1)
 
     # -- end ---------------------------------------------------------------------------------------------
 

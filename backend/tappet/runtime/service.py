@@ -39,6 +39,7 @@ _EVENT_LIMIT = 200
 _DRAIN_S = 0.01
 _POLL_S = 0.05
 _SYNC_S = 1.0
+_LOAD_S = 1.0
 
 
 class LimitedConnection(ServerConnection):
@@ -186,6 +187,7 @@ class RuntimeService:
             asyncio.create_task(self._drain_loop()),
             asyncio.create_task(self._poll_loop()),
             asyncio.create_task(self._sync_loop()),
+            asyncio.create_task(self._load_loop()),
         ]
         number: int = next(iter(self._server.sockets)).getsockname()[1]
         return number
@@ -280,3 +282,8 @@ class RuntimeService:
             except OSError as error:
                 self.plc.log.add("error", "retain", f"remanent variables could not reach the disk: {error}")
                 await asyncio.sleep(60)
+
+    async def _load_loop(self) -> None:
+        while True:
+            await asyncio.sleep(_LOAD_S)
+            await asyncio.to_thread(self.plc.sample_load)

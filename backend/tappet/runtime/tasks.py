@@ -16,6 +16,11 @@ LATENESS_STEP_NS = 2048
 """Width of a class of the lateness histogram."""
 
 
+LOG_CLASSES = 128
+"""Classes of the histograms of execution time and jitter, LogClass of statistics.st."""
+_FIRST_CLASS_NS = 128
+
+
 def watchdog_threshold(sensitivity: int) -> int:
     """Consecutive overruns that end a task: 1 for sensitivity 0, 1, 2; n - 1 above (TASK-33)."""
     return max(1, sensitivity - 1)
@@ -146,3 +151,26 @@ def quantile(classes: tuple[int, ...], share: float) -> int:
         if seen >= wanted:
             return (i + 1) * LATENESS_STEP_NS
     return len(classes) * LATENESS_STEP_NS
+
+
+def log_class_edge(number: int) -> int:
+    """Lower edge, in ns, of a class of the histograms: four to the octave; the first one begins at 0."""
+    return 0 if number == 0 else _FIRST_CLASS_NS * (4 + number % 4) * 2 ** (number // 4) // 4
+
+
+@dataclass(frozen=True, slots=True)
+class TaskHistogram:
+    """How often the cycles of a task took how long, and how late they began, since the last reset."""
+
+    name: str
+    durations: tuple[int, ...]
+    jitters: tuple[int, ...]
+
+
+def read_histogram(spec: TaskSpec, statistics: Record) -> TaskHistogram:
+    """Both histograms out of a task context."""
+
+    def classes(member: str) -> tuple[int, ...]:
+        return struct.unpack(f"<{LOG_CLASSES}I", read_memory(statistics.place(member), 4 * LOG_CLASSES))
+
+    return TaskHistogram(spec.name, classes("durations"), classes("jitters"))

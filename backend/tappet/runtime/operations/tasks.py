@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from msgspec import Meta, Struct
 
+from tappet.runtime.monitoring import Load
 from tappet.runtime.operations.declaration import Fact, Operation, OperationError, Rest, Text
-from tappet.runtime.tasks import TaskStatistics
+from tappet.runtime.operations.instants import Instant, instant_of
+from tappet.runtime.tasks import LOG_CLASSES, TaskHistogram, TaskStatistics, log_class_edge
 
 if TYPE_CHECKING:
     from tappet.runtime.plc import SoftPlc
@@ -79,3 +81,75 @@ class ResetStatistics(Operation[None], frozen=True):
         if self.task is not None and self.task not in names:
             raise OperationError("not_found", f"there is no task '{self.task}'; there are {', '.join(names)}")
         plc.reset_statistics(self.task)
+
+
+class HistogramClass(Struct, frozen=True):
+    """One class of the histograms of a task."""
+
+    from_us: Annotated[float, Meta(description="Lower edge; the upper one is that of the next class.")]
+    cycles: Annotated[int, Meta(description="Cycles whose programs took so long.")]
+    starts: Annotated[int, Meta(description="Starts that were so late.")]
+
+
+class TaskTimes(Struct, frozen=True):
+    """How long the cycles of a task took and how late they began, since the last reset.
+
+    Four classes to the octave from 0.128 µs on; the last one holds everything above.
+    """
+
+    name: str
+    classes: list[HistogramClass]
+
+
+def _times(tasks: list[TaskHistogram]) -> list[TaskTimes]:
+    edges = [_us(log_class_edge(number)) for number in range(LOG_CLASSES)]
+    return [
+        TaskTimes(t.name, [HistogramClass(*row) for row in zip(edges, t.durations, t.jitters, strict=True)])
+        for t in tasks
+    ]
+
+
+class ListHistograms(Operation[list[TaskHistogram]], frozen=True):
+    """Histograms of execution time and jitter of all tasks."""
+
+    op: ClassVar[str] = "task_histograms"
+    rest: ClassVar[Rest | None] = Rest("GET", "/tasks/histograms", "viewer", None, _times)
+
+    def run(self, plc: SoftPlc) -> list[TaskHistogram]:
+        """As of now."""
+        return plc.task_histograms()
+
+
+class LoadMoment(Struct, frozen=True):
+    """Load during the second before a moment, in percent of one processor."""
+
+    at: Instant
+    tasks: Annotated[list[float], Meta(description="In the order of the names.")]
+    processors: Annotated[list[float], Meta(description="Load by all programs of the host.")]
+
+
+class LoadOfTasks(Struct, frozen=True):
+    """How busy tasks and processors were in the last ten minutes, a sample a second, oldest first."""
+
+    tasks: list[str]
+    processors: Annotated[list[int], Meta(description="Numbers of the processors.")]
+    samples: list[LoadMoment]
+
+
+def _load(load: Load) -> LoadOfTasks:
+    moments = [LoadMoment(instant_of(s.at_ns), list(s.tasks), list(s.processors)) for s in load.samples]
+    return LoadOfTasks(list(load.tasks), list(load.processors), moments)
+
+
+class ReadLoad(Operation[Load], frozen=True):
+    """Load of each task and of each processor."""
+
+    op: ClassVar[str] = "task_load"
+    rest: ClassVar[Rest | None] = Rest("GET", "/tasks/load", "viewer", None, _load)
+    after_ms: Annotated[
+        int, Meta(ge=0, le=1 << 50, description="Only samples after this unix time in ms.")
+    ] = 0
+
+    def run(self, plc: SoftPlc) -> Load:
+        """As noted until now."""
+        return plc.load_since(self.after_ms * 1_000_000)

@@ -9,7 +9,6 @@ import { objectIcon } from '@/project/kinds';
 import { useCommandContext } from '@/workbench/useCommandContext';
 import { openObject } from '@/workbench/docking/dock';
 import type { EditorProps } from '@/project/editorProps';
-import { TaskTable } from '@/workbench/online/TaskTable';
 import { useOnline } from '@/workbench/onlineSession';
 import { mayEdit } from '@/workbench/rights';
 import { reasonText, runCommand } from '@/workbench/run';
@@ -23,6 +22,7 @@ import { Tabs } from '@/ui/Tabs';
 import { Section } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
 import { intervalNs } from '../task/model';
+import { MonitoringPage } from './MonitoringPage';
 
 interface TaskLine {
   object: ObjectSummary;
@@ -49,7 +49,7 @@ export default function TaskConfigurationEditor({ projectId, objectId }: EditorP
     pages.push({
       id: 'monitoring',
       title: t('taskConfiguration.monitoring'),
-      content: <TaskTable runtimeId={session.runtimeId} />,
+      content: <MonitoringPage runtimeId={session.runtimeId} />,
     });
   return <Tabs key={session ? 'online' : 'offline'} pages={pages} initial={session ? 'monitoring' : 'properties'} />;
 }

@@ -1,5 +1,5 @@
 import { Timer, RotateCcw } from 'lucide-react';
-import { useMemo, useState } from 'react';
+import { useMemo } from 'react';
 import { api } from '@/api/client';
 import { keys, queryClient } from '@/api/queries';
 import type { TaskState } from '@/api/types';
@@ -19,11 +19,17 @@ import { countText, microsNumber } from './times';
 
 const STATUS_COLORS: Record<string, string> = { exception: 'var(--error)', valid: 'var(--ok)' };
 
+interface TaskTableProps {
+  runtimeId: string;
+  /** Name of the chosen task. */
+  selected: string | null;
+  onSelected: (name: string | null) => void;
+}
+
 /** Statistics of the tasks as CODESYS lists them (TASK-50 to TASK-59); reset by button or context menu. */
-export function TaskTable({ runtimeId }: { runtimeId: string }) {
+export function TaskTable({ runtimeId, selected, onSelected }: TaskTableProps) {
   const t = useText();
   const { data, error, refetch } = useTasks(runtimeId);
-  const [selected, setSelected] = useState<string | null>(null);
   const operator = atLeast(commandContext().role, 'operator') ? null : t('reason.operator');
 
   const columns = useMemo((): Column<TaskState>[] => {
@@ -160,7 +166,7 @@ export function TaskTable({ runtimeId }: { runtimeId: string }) {
             columns={columns}
             keyOf={(task) => task.name}
             selected={selected}
-            onSelect={(task) => setSelected(task?.name ?? null)}
+            onSelect={(task) => onSelected(task?.name ?? null)}
           />
         </PanelRest>
       </ContextMenu>

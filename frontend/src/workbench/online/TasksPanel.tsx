@@ -1,4 +1,5 @@
 import { LogIn, Timer } from 'lucide-react';
+import { useState } from 'react';
 import { useText } from '@/i18n';
 import { useActiveSession } from './session';
 import { runCommand } from '../run';
@@ -10,7 +11,8 @@ import { TaskTable } from './TaskTable';
 export default function TasksPanel() {
   const t = useText();
   const session = useActiveSession();
-  if (session) return <TaskTable runtimeId={session.runtimeId} />;
+  const [selected, setSelected] = useState<string | null>(null);
+  if (session) return <TaskTable runtimeId={session.runtimeId} selected={selected} onSelected={setSelected} />;
   return (
     <Empty icon={Timer} title={t('tasks.offline')} text={t('tasks.offlineText')}>
       <Button icon={LogIn} onClick={() => void runCommand('online.login')}>
