@@ -2199,6 +2199,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/tasks/histograms": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Task Histograms
+         * @description Histograms of execution time and jitter of all tasks.
+         */
+        get: operations["task_histograms"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/tasks/load": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Task Load
+         * @description Load of each task and of each processor.
+         */
+        get: operations["task_load"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/tasks/{task}/reset": {
         parameters: {
             query?: never;
@@ -4987,6 +5027,18 @@ export interface components {
             text: string;
         };
         /**
+         * HistogramClass
+         * @description One class of the histograms of a task.
+         */
+        HistogramClass: {
+            /** @description Cycles whose programs took so long. */
+            cycles: number;
+            /** @description Lower edge; the upper one is that of the next class. */
+            from_us: number;
+            /** @description Starts that were so late. */
+            starts: number;
+        };
+        /**
          * Homing
          * @description Homing by the drive, which MC_Home starts.
          */
@@ -5530,6 +5582,28 @@ export interface components {
             offset: number;
             /** Variable */
             variable: string;
+        };
+        /**
+         * LoadMoment
+         * @description Load during the second before a moment, in percent of one processor.
+         */
+        LoadMoment: {
+            /** Format: date-time */
+            at: string;
+            /** @description Load by all programs of the host. */
+            processors: number[];
+            /** @description In the order of the names. */
+            tasks: number[];
+        };
+        /**
+         * LoadOfTasks
+         * @description How busy tasks and processors were in the last ten minutes, a sample a second, oldest first.
+         */
+        LoadOfTasks: {
+            /** @description Numbers of the processors. */
+            processors: number[];
+            samples: components["schemas"]["LoadMoment"][];
+            tasks: string[];
         };
         /**
          * LogEntry
@@ -8239,6 +8313,16 @@ export interface components {
             p999_jitter_us: number;
             priority: number;
             status: string;
+        };
+        /**
+         * TaskTimes
+         * @description How long the cycles of a task took and how late they began, since the last reset.
+         *
+         *         Four classes to the octave from 0.128 µs on; the last one holds everything above.
+         */
+        TaskTimes: {
+            classes: components["schemas"]["HistogramClass"][];
+            name: string;
         };
         /**
          * TestFailure
@@ -14242,6 +14326,88 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["TaskState"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    task_histograms: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TaskTimes"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    task_load: {
+        parameters: {
+            query?: {
+                after_ms?: number;
+            };
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LoadOfTasks"];
                 };
             };
             /** @description The request was refused */
