@@ -119,6 +119,48 @@ def test_any_bytes_give_values_or_a_retain_error(data: bytes) -> None:
         parse_retain(data)
 
 
+def test_every_cut_and_every_flipped_byte_gives_values_of_one_cycle_or_an_error(
+    file: RetainFile, image: Image, tmp_path: Path
+) -> None:
+    """Two cycles are in the slots; the copy that was saved holds the one before them."""
+    file.save()
+    saved = parse_retain((tmp_path / SAVED).read_bytes())
+    cycles = []
+    for number in (8, 9):
+        image.write(16, number.to_bytes(4, "little"))
+        image.write(40, b"v%d" % number)
+        save(file)
+        cycles.append(parse_retain(file.path.read_bytes()))
+    content = file.path.read_bytes()
+    older, newer = cycles
+
+    def outcomes(damaged: bytes) -> dict[str, object]:
+        try:
+            kept = parse_retain(damaged)
+        except RetainError as error:
+            return {"error": str(error)}
+        # groups are those of different tasks: each is of one cycle by itself
+        for names in (("GVL.COUNT", "PERS.HOURS"), ("PERS.NAME",)):
+            values = [kept[name] for name in names]
+            assert values in ([older[name] for name in names], [newer[name] for name in names])
+        return {"kept": kept}
+
+    found = {"error": 0, "kept": 0}
+    for size in range(len(content)):
+        found.update({key: found[key] + 1 for key in outcomes(content[:size])})
+    assert found["error"] > 0
+    assert outcomes(content[:0]) == {"error": "shorter than its header"}
+    damaged = bytearray(content)
+    for at in range(len(content)):
+        damaged[at] ^= 0xFF
+        outcomes(bytes(damaged))
+        damaged[at] ^= 0xFF
+    # an error of the live file: what was saved as a whole is taken
+    for size in range(200):
+        file.path.write_bytes(content[:size])
+        assert load_retain(tmp_path)[0] == saved
+
+
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=200)
 @given(st.data())
 def test_a_damaged_file_never_gives_wrong_values(file: RetainFile, data: st.DataObject) -> None:

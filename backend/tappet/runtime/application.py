@@ -83,6 +83,8 @@ class LoadedApplication:
         self.watched = WatchedProperties(self.image)
         self.watched.load(package)
         self.retain_file: RetainFile | None = None
+        self._rarely_kept: list[tuple[int, int]] = []
+        """Remanent bytes of tasks that may not run for long, from and to."""
         self.buffers = IoBuffers(Block(self.area("I")[1]), Block(self.area("Q")[1]), Block(8))
         self._batches: list[list[tuple[int, ValueList]]] = [[] for _ in package.tasks]
         self.connect_code(self.code)
@@ -284,6 +286,9 @@ class LoadedApplication:
         file = RetainFile(self.executive, folder / LIVE, list(groups.values()), self.image.address)
         self.retain_file = file
         for task, group in zip(groups, file.groups, strict=True):
+            if task is None or self.package.tasks[task].kind not in ("cyclic", "freewheeling"):
+                kept = [r.variable for r in groups[task]]
+                self._rarely_kept += [(v.offset, v.offset + v.size) for v in kept]
             if task is not None:
                 self.executive.store(self.contexts.tasks[task].place("pRetain"), group.address)
 
@@ -294,13 +299,19 @@ class LoadedApplication:
         if self.retain_file is not None:
             self.retain_file.close()
             self.retain_file = None
+        self._rarely_kept = []
 
     def save_retain(self) -> None:
         """Everything remanent to disk, complete; only while no task runs."""
         if self.retain_file is not None:
+            self._keep()
+            self.retain_file.save()
+
+    def _keep(self) -> None:
+        """Everything remanent into the mapped file, as the end of a cycle does; only while no task runs."""
+        if self.retain_file is not None:
             for group in self.retain_file.groups:
                 self.executive.save_retain(group.address)
-            self.retain_file.save()
 
     # -- values ------------------------------------------------------------------------------------------
 
@@ -329,7 +340,7 @@ class LoadedApplication:
         self._simulate_inputs(values)
         by_task: dict[int | None, list[PlacedValue]] = {}
         for value in values:
-            by_task.setdefault(self.ownership.regular(value.place.offset), []).append(value)
+            by_task.setdefault(self._writer(value.place.offset), []).append(value)
         if len(by_task) > 1 and None not in by_task:
             # one task's cycle is one moment for all of them: the bus cycle task takes the batch
             by_task = {self.ownership.bus: list(values)}
@@ -339,9 +350,19 @@ class LoadedApplication:
             if task is None or self.virtual:
                 with self.tasks.standing():
                     self.executive.apply_values(values_list.address)
+                    self._keep()
             else:
                 tickets.append((task, self._queue(task, values_list)))
         return tickets
+
+    def _writer(self, offset: int) -> int | None:
+        """Task that stores a written value; None when all tasks are to stand for it.
+
+        What the task that keeps it may not save for long is saved at once.
+        """
+        if any(start <= offset < end for start, end in self._rarely_kept):
+            return None
+        return self.ownership.regular(offset)
 
     def _queue(self, task: int, batch: ValueList) -> int:
         queue = self.contexts.queues[task]

@@ -15,6 +15,7 @@ from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.places import Place, find_again
 from tappet.runtime.reports import build_report
+from tappet.runtime.retain_groups import remanent_by_task
 from tappet.runtime.tasks import TaskOwnership
 
 
@@ -101,7 +102,7 @@ def apply_change(
         lost = _relocate(application, running, package)
         application.watched.load(package)
         problem = ""
-        remanence = (running.retain, running.persistent) != (package.retain, package.persistent)
+        remanence = remanent_by_task(running) != remanent_by_task(package)
         if remanence and retain_folder is not None:
             try:
                 application.open_retain_file(retain_folder)

@@ -25,12 +25,16 @@ def by_task(variables: Sequence[Remanent], ownership: TaskOwnership) -> dict[int
     return groups
 
 
+def remanent_by_task(package: CodePackage) -> dict[int | None, list[Remanent]]:
+    """Which task of a package keeps which variables."""
+    return by_task(remanent_of(package), TaskOwnership(package))
+
+
 def check_room(folder: Path | None, package: CodePackage) -> None:
     """Raises DiskFullError when the remanent variables of a package would not be kept in `folder`."""
-    variables = remanent_of(package)
-    if not variables or folder is None:
+    groups = remanent_by_task(package)
+    if not groups or folder is None:
         return
-    groups = by_task(variables, TaskOwnership(package))
     try:
         check_retain_room(folder / LIVE, list(groups.values()))
     except OSError as error:  # others are noted when the file is opened
