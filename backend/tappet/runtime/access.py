@@ -9,13 +9,15 @@ from collections.abc import Callable, Iterable, Sequence
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime import monitoring
 from tappet.runtime.application import LoadedApplication
-from tappet.runtime.errors import NoApplicationError, PlcError
+from tappet.runtime.errors import NoApplicationError, NoTraceError, PlcError
 from tappet.runtime.flight import FlightRecorder, FlightStatus
 from tappet.runtime.forces import Force, PlacedValue
 from tappet.runtime.places import path_at
 from tappet.runtime.recorder import Recorder, RecorderSpec
+from tappet.runtime.sampled import TraceSpec, TraceStatus
 from tappet.runtime.task_group import TaskError
 from tappet.runtime.tasks import TaskHistogram, TaskStatistics
+from tappet.runtime.trace_record import Command, TraceFrames
 
 _PATIENCE_S = 0.5
 """How long reading waits for a property that is monitored by a call."""
@@ -112,14 +114,73 @@ class ApplicationAccess:
         with self._lock:
             application = self._need()
             number = application.ownership.number(task)
-            return application.record(RecorderSpec(tuple(items), number, divider, min_interval_ns, frames))
+            return application.sampled.record(
+                RecorderSpec(tuple(items), number, divider, min_interval_ns, frames)
+            )
 
     def end_record(self, recorder: Recorder) -> None:
         """Stop a recorder; nothing happens when its application is gone."""
         with self._lock:
             application = self.application
             if application is not None and any(recorder in r for r in application.recorders.values()):
-                application.end_record(recorder)
+                application.sampled.end_record(recorder)
+
+    # -- traces ------------------------------------------------------------------------------------------
+
+    def download_trace(self, spec: TraceSpec, start: bool) -> TraceStatus:
+        """Keep a trace, in place of one of its name, and start it."""
+        with self._lock:
+            found = self._need().sampled.download_trace(spec)
+        return self.command_trace(spec.name, "start") if start else found
+
+    def command_trace(self, name: str, command: Command) -> TraceStatus:
+        """Start, stop or arm a trace; PlcError when there is none of this name."""
+        with self._lock:
+            sampled = self._need().sampled
+            if not sampled.command_trace(name, command):
+                raise self._no_trace(name)
+        sampled.settle_trace(name)
+        with self._lock:
+            return self._trace(name)
+
+    def _trace(self, name: str) -> TraceStatus:
+        for status in self._need().sampled.trace_status():
+            if status.name.upper() == name.upper():
+                return status
+        raise self._no_trace(name)
+
+    @staticmethod
+    def _no_trace(name: str) -> NoTraceError:
+        return NoTraceError(f"there is no trace '{name}'; download it")
+
+    def traces(self) -> list[TraceStatus]:
+        """All traces of the application; none without application."""
+        with self._lock:
+            return self.application.sampled.trace_status() if self.application is not None else []
+
+    def take_trace(self, name: str, record: int, first: int, limit: int) -> TraceFrames:
+        """Samples of a record of a trace, by number."""
+        with self._lock:
+            records = self._need().sampled.find_trace(name)
+        if records is None:
+            raise self._no_trace(name)
+        if not 0 <= record < len(records):
+            raise NoTraceError(f"the trace '{name}' has no record number {record}")
+        return records[record].take(first, limit)
+
+    def trace_settings(self, name: str) -> bytes:
+        """What was downloaded with a trace."""
+        with self._lock:
+            found = self._need().sampled.trace_settings(name)
+        if found is None:
+            raise self._no_trace(name)
+        return found
+
+    def remove_trace(self, name: str) -> None:
+        """End a trace."""
+        with self._lock:
+            if not self._need().sampled.remove_trace(name):
+                raise self._no_trace(name)
 
     # -- flight recorder ---------------------------------------------------------------------------------
 

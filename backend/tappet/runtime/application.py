@@ -22,7 +22,6 @@ from tappet.runtime.image import Image
 from tappet.runtime.link import LinkedCode, LinkError
 from tappet.runtime.places import Place
 from tappet.runtime.program_log import ProgramLog
-from tappet.runtime.recorder import Recorder, RecorderList, RecorderSpec
 from tappet.runtime.retain import (
     LIVE,
     Kept,
@@ -32,6 +31,7 @@ from tappet.runtime.retain import (
     matching,
 )
 from tappet.runtime.retain_groups import by_task, remanent_of
+from tappet.runtime.sampled import Sampled
 from tappet.runtime.task_group import TaskError, TaskGroup
 from tappet.runtime.tasks import TaskOwnership
 from tappet.runtime.threads import NORMAL, Scheduling
@@ -79,7 +79,8 @@ class LoadedApplication:
         self.contexts.application["pHeap"] = self.heap.address
         self.ownership = TaskOwnership(package)
         self.forces = ForceTable()
-        self.recorders: dict[int, list[Recorder]] = {}
+        self.sampled = Sampled(self)
+        self.recorders = self.sampled.recorders
         self.watched = WatchedProperties(self.image)
         self.watched.load(package)
         self.retain_file: RetainFile | None = None
@@ -209,8 +210,7 @@ class LoadedApplication:
         self.contexts.application["pFaulted"] = 0
         if self.flight is not None:
             self.flight.renew()
-        for recorder in (r for recorders in self.recorders.values() for r in recorders):
-            recorder.restart()
+        self.sampled.restart()
         if self.virtual:
             self.contexts.application["virtualNow"] = 0
             self.contexts.application["nextScan"] = 0
@@ -450,35 +450,6 @@ class LoadedApplication:
         self.tasks.publish(cell, values.address, values)
         if not self.contexts.tasks:
             self.executive.apply_values(values.address)
-
-    # -- recorders ---------------------------------------------------------------------------------------
-
-    def record(self, spec: RecorderSpec) -> Recorder:
-        """Start a recorder at a task; ValueError when the task or a place does not exist."""
-        if not 0 <= spec.task < len(self.contexts.tasks):
-            raise ValueError(f"the application has no task number {spec.task}")
-        for offset, size in spec.items:
-            self.image.check(offset, size)
-        recorder = Recorder(self.executive, spec, self.image.address)
-        self._publish_recorders(spec.task, [*self.recorders.get(spec.task, []), recorder])
-        return recorder
-
-    def end_record(self, recorder: Recorder) -> None:
-        """Stop a recorder; what it has sampled can still be taken."""
-        task = recorder.spec.task
-        rest = [r for r in self.recorders.get(task, []) if r is not recorder]
-        self._publish_recorders(task, rest)
-
-    def _publish_recorders(self, task: int, recorders: list[Recorder]) -> None:
-        cell = self.contexts.tasks[task].place("pRecorders")
-        listed = RecorderList(self.executive, recorders)
-        self.recorders[task] = recorders
-        self.tasks.publish(cell, listed.address if recorders else 0, listed)
-        self.ask_for_watched()
-
-    def ask_for_watched(self) -> None:
-        """Have Get called for the properties that are watched now."""
-        self.watched.update(place for found in self.recorders.values() for r in found for place in r.located)
 
     @property
     def calls_watched(self) -> bool:

@@ -142,6 +142,11 @@ class Contexts:
         load = self.executive.load
         return [load(task.place("sequence")) for task in self.tasks]
 
+    @staticmethod
+    def wall_offset() -> int:
+        """Unix time of the begin of the monotonic clock, which tasks live by in real time."""
+        return time.time_ns() - time.clock_gettime_ns(time.CLOCK_MONOTONIC)
+
     @property
     def low(self) -> bool:
         """Whether all task stacks lie below 4 GiB."""

@@ -16,3 +16,7 @@ class NoApplicationError(PlcError):
 
     def __init__(self) -> None:
         super().__init__("no application is loaded; download one first")
+
+
+class NoTraceError(PlcError):
+    """There is no trace, or no record of one, as it is asked for."""

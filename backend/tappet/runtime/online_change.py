@@ -83,6 +83,7 @@ def apply_change(
     )
     old_code = application.code
     if only_code:
+        _end_traces(application, log)
         application.package = package
         application.count_change()
         application.connect_code(code)
@@ -95,6 +96,7 @@ def apply_change(
             fault = application.tasks.call(old_code[function])
             if fault is not None and report is None:  # its place is known as long as its code is there
                 report = build_report(application, log, DURING)
+        _end_traces(application, log)
         _rearrange(application, package)
         application.package = package
         application.count_change()
@@ -118,6 +120,13 @@ def apply_change(
         old_code.close()
         application.connect_flight()  # in what was kept, places would name other variables
     return ChangeResult(report, tuple(lost), paused=True, retain_problem=problem)
+
+
+def _end_traces(application: LoadedApplication, log: Logbook) -> None:
+    """Traces were made for the application as it was (TRC-70)."""
+    ended = application.sampled.end_traces()
+    if ended:
+        log.add("info", "trace", f"ended by the online change: {', '.join(ended)}")
 
 
 def _rearrange(application: LoadedApplication, package: CodePackage) -> None:

@@ -142,7 +142,7 @@ class SoftPlc(ApplicationAccess):
 
     def _log_failed(self, application: LoadedApplication) -> None:
         """Note the watched properties whose Get has ended in an exception; the application runs on."""
-        application.ask_for_watched()
+        application.sampled.ask_for_watched()
         for offset, size in application.watched.failed():
             name = path_at(application.package.symbols, Place(offset, size)) or f"offset {offset}"
             text = f"monitoring '{name}' ended in an exception of its Get, which is called no more"

@@ -18,7 +18,7 @@ from websockets.exceptions import ConnectionClosed
 
 from tappet.log_rate import RateLimit
 from tappet.runtime import protocol
-from tappet.runtime.errors import DiskFullError, NoApplicationError, PlcError
+from tappet.runtime.errors import DiskFullError, NoApplicationError, NoTraceError, PlcError
 from tappet.runtime.operations import registry
 from tappet.runtime.operations.declaration import OperationError
 from tappet.runtime.operations.life_cycle import Hello
@@ -140,6 +140,8 @@ def refusal_code(error: Exception) -> str:
     """The code under which a client hears of an error that a handler raised."""
     if isinstance(error, OperationError):
         return error.code
+    if isinstance(error, NoTraceError):
+        return "not_found"
     if isinstance(error, NoApplicationError):
         return "no_application"
     if isinstance(error, DiskFullError):

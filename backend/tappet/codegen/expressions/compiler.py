@@ -186,14 +186,12 @@ class _Compiler:
         return self.scope.find(tree.name) is None and static_place(self.symbols, tree.name) is None
 
     def _call(self, tree: ast.Call) -> Operand:
-        name = tree.callee.name.upper() if isinstance(tree.callee, ast.Name) else ""
-        if name not in _FUNCTIONS:
-            raise ExpressionError(
-                f"a call of '{name or '...'}' is not possible here; known are {', '.join(_FUNCTIONS)}"
-            )
+        if not isinstance(tree.callee, ast.Name) or tree.callee.name.upper() not in _FUNCTIONS:
+            raise ExpressionError(f"only {', '.join(_FUNCTIONS)} can be called here")
+        name = tree.callee.name.upper()
         given = [argument.value for argument in tree.args if argument.value is not None]
         if len(given) != _FUNCTIONS[name] or any(argument.output for argument in tree.args):
-            raise ExpressionError(f"{name} takes {_FUNCTIONS[name]} values, not {len(tree.args)}")
+            raise ExpressionError(f"'{name}' takes {_FUNCTIONS[name]} values, not {len(tree.args)}")
         return numeric_function(name, [self.expression(value) for value in given])
 
     # -- variables ---------------------------------------------------------------------------------------

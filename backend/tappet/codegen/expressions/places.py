@@ -158,7 +158,7 @@ def member_place(symbols: SymbolMap, base: Place, name: str) -> Place:
                 return Place(info, member.offset, bit=member.bit, path=path)
             return replace(base, info=info, offset=base.offset + member.offset, bit=member.bit, path=path)
     if base.info.kind == "pointer":
-        raise ExpressionError(f"'{base.path}' is a pointer; write '{base.path}^.{name}'")
+        raise ExpressionError(f"'{base.path}' is a pointer; write ^ before the member '{name}'")
     raise ExpressionError(f"'{base.path}' ({base.info.name}) has no member '{name}'")
 
 
