@@ -7,6 +7,7 @@ Bodies that see an edited declaration are made again; a name in both programs me
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -281,6 +282,8 @@ class _Keeping:
             isinstance(new, tree.Enum) and isinstance(old, tree.Enum) and new.name == old.name
         ):
             holder[key] = value
+        elif isinstance(new, tree.Scalar) and isinstance(old, tree.Scalar):
+            holder[key] = _converted(old, value, new, holder[key])
 
     def members(self, old: tree.Struct, value: Any, new: tree.Struct, place: Any) -> None:
         if old == new:
@@ -306,3 +309,11 @@ class _Keeping:
             before = tree.Array(old.element, rest) if rest else old.element
             after = tree.Array(new.element, rest) if rest else new.element
             self.one(before, value[i], after, place, i)
+
+
+def _converted(old: tree.Scalar, value: Any, new: tree.Scalar, initial: Any) -> Any:
+    """A number in an integer type if it has it, else the initial value."""
+    if not new.integer or not (old.integer or old.kind in ("bool", "real")):
+        return initial
+    fits = math.isfinite(value) and new.low <= value <= new.high and value == int(value)
+    return int(value) if fits else initial

@@ -42,7 +42,14 @@ while (order := read_frame(sys.stdin.buffer)) is not None:
             sys.stdout.buffer.flush()
             continue
     answer = {"package": b"package", "code_id": str(builds), "data_id": "d", "code_size": 1, "data_size": 2}
-    answer |= {"change_base": None, "change_reasons": [], "diagnostics": [], "timings": {}, "seconds": 0.1}
+    answer |= {
+        "change_base": None,
+        "change_reasons": [],
+        "change_report": {},
+        "diagnostics": [],
+        "timings": {},
+        "seconds": 0.1,
+    }
     if "fail" in text:
         answer = {"crash": "KeyError: 'x'"}
     sys.stdout.buffer.write(pack_frame(answer))

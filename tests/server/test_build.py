@@ -128,6 +128,8 @@ def test_relations_from_foreign_to_online_change(
     assert _login(admin, project, runtime_id) == {
         "relation": "same",
         "reasons": [],
+        "changes": [],
+        "changes_omitted": 0,
         "loaded_project": None,
     }
 
@@ -139,6 +141,10 @@ def test_relations_from_foreign_to_online_change(
     data = _login(admin, project, runtime_id)
     assert data["relation"] == "online_change"
     assert "PLC_PRG" in data["reasons"][0]
+    assert [(v["path"], v["effect"], v["reason"], v["type"]) for v in data["changes"]] == [
+        ("PLC_PRG.n", "moved", "place", "INT"),
+        ("PLC_PRG.m", "initialised", "new", "DINT"),
+    ]
 
     changed = _download(admin, project, runtime_id, "online_change")
     assert changed.status_code == 200, changed.text

@@ -30,6 +30,7 @@ from tappet.codegen.tasks import event_place
 from tappet.codegen.watched import watched_values
 from tappet.core.edits.edit import Edit
 from tappet.core.internal_error import At, InternalError
+from tappet.core.life_cycle import life_cycle_of
 from tappet.core.lower import Lowered, lower, task_symbol
 from tappet.core.program import AREA_PREFIX
 from tappet.iec.heap import KIB, HeapSettings
@@ -171,6 +172,7 @@ class Generator:
                 signatures=laid.signatures,
                 created=self.created(lowered),
                 watched=watched_values(lowered, laid.placed.objects),
+                life_cycle=life_cycle_of(laid.table.described.values()),
                 heap_limit=self.options.heap.limit,
                 heap_poison=self.options.heap.poison,
             ),

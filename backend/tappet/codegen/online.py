@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from tappet.codegen.converted_values import Conversion, convertible, scalar
 from tappet.codegen.layout import Layout
 from tappet.codegen.online_constants import ChangedConstants, bits_without, without
 from tappet.codegen.package import CodePackage, OnlineChange
 from tappet.codegen.symbol_map import Root, SymbolMap
 from tappet.codegen.symbol_types import MemberInfo, TypeInfo
 
+Bounds = tuple[tuple[int, int], ...]
 NO_COPY = "NO_COPY"
 """Flag of a variable that an online change does not copy (LPRG-35)."""
 INIT = "INIT_ON_CHANGE"
@@ -53,8 +57,17 @@ def plan_online_change(old: CodePackage, symbols: SymbolMap, placed: Layout, ima
     plan.moves = without(plan.moves, constants)
     plan.bits = bits_without(plan.bits, constants)
     plan.fresh += constants
-    moves, fresh, reasons = tuple(plan.moves), tuple(plan.uncovered()), tuple(plan.reasons)
-    return OnlineChange(old.code_id, old.data_id, moves, fresh, reasons, bits=tuple(plan.bits))
+    return OnlineChange(
+        old.code_id,
+        old.data_id,
+        tuple(plan.moves),
+        tuple(plan.uncovered()),
+        tuple(plan.reasons),
+        bits=tuple(plan.bits),
+        conversions=tuple(
+            c for c in plan.conversions if not any(at <= c.target.offset < at + n for at, n in constants)
+        ),
+    )
 
 
 def code_change(old: CodePackage, symbols: SymbolMap) -> OnlineChange:
@@ -83,6 +96,43 @@ def _is_reinitialised(before: MemberInfo | None, member: MemberInfo) -> bool:
     return NO_COPY in member.flags or _is_initialised(before, member)
 
 
+class TypePairs:
+    """Compares types of two programs."""
+
+    def __init__(self, old: SymbolMap, new: SymbolMap) -> None:
+        self.old = old
+        self.new = new
+        self.same: dict[tuple[int, int], bool] = {}
+
+    def equal(self, old_type: int, new_type: int) -> bool:
+        """Whether two types lay out and mean the same."""
+        key = (old_type, new_type)
+        known = self.same.get(key)
+        if known is None:
+            self.same[key] = True  # a recursive mention, through pointers
+            known = self.same[key] = self._equal(self.old.types[old_type], self.new.types[new_type])
+        return known
+
+    def _equal(self, old: TypeInfo, new: TypeInfo) -> bool:
+        if (old.kind, old.size, old.bounds, old.length) != (new.kind, new.size, new.bounds, new.length):
+            return False
+        if old.kind in ("pointer", "reference", "interface"):
+            return old.name == new.name
+        if old.elem is not None and new.elem is not None and not self.equal(old.elem, new.elem):
+            return False
+        if len(old.members) != len(new.members):
+            return False
+        if old.kind == "fb" and old.name != new.name:
+            return False
+        return all(
+            a.name.upper() == b.name.upper()
+            and (a.offset, a.bit, a.absolute) == (b.offset, b.bit, b.absolute)
+            and not _is_reinitialised(a, b)
+            and self.equal(a.type, b.type)
+            for a, b in zip(old.members, new.members, strict=True)
+        )
+
+
 class _Plan:
     """Matches old and new variables by path and type."""
 
@@ -91,9 +141,10 @@ class _Plan:
         self.new = new
         self.moves: list[tuple[int, int, int]] = []
         self.bits: list[tuple[int, int, int, int]] = []
+        self.conversions: list[Conversion] = []
         self.fresh: list[tuple[int, int]] = []
         self.reasons: list[str] = []
-        self.same: dict[tuple[int, int], bool] = {}
+        self.equal = TypePairs(old, new).equal
 
     def mark(self, old: Root | None, new: Root) -> None:
         """Initialise what an online change initialises inside an object that stays (LPRG-28)."""
@@ -140,8 +191,14 @@ class _Plan:
                 continue
             if member.bit is not None and before.bit is not None:
                 self.bits.append((old_at + before.offset, before.bit, new_at + member.offset, member.bit))
-            if member.name.upper() == "__VFTABLE" or member.bit is not None or before.bit is not None:
                 continue
+            if member.name.upper() == "__VFTABLE":
+                continue
+            if member.bit is not None or before.bit is not None:
+                self.convert(before, old_at, member, new_at)
+                continue
+            if new.kind == "union" and not self.equal(before.type, member.type):
+                continue  # other members that stay say what the bytes are
             self.value(before.type, old_at + before.offset, member.type, new_at + member.offset)
 
     def value(self, old_type: int, old_at: int, new_type: int, new_at: int) -> None:
@@ -157,26 +214,23 @@ class _Plan:
             # one unit stays free, so that a shortened text ends in a zero
             unit = 2 if new.kind == "wstring" else 1
             self.move(old_at, new_at, min(old.size, new.size - unit))
+        elif convertible(old, new):
+            self.conversions.append(Conversion(scalar(old, old_at), scalar(new, new_at)))
+
+    def convert(self, old: MemberInfo, old_at: int, new: MemberInfo, new_at: int) -> None:
+        """A BIT that becomes a number, or the other way round."""
+        old_type, new_type = self.old.types[old.type], self.new.types[new.type]
+        if convertible(old_type, new_type):
+            source = scalar(old_type, old_at + old.offset, old)
+            self.conversions.append(Conversion(source, scalar(new_type, new_at + new.offset, new)))
 
     def elements(self, old: TypeInfo, old_at: int, new: TypeInfo, new_at: int) -> None:
-        """Move the elements whose indices both arrays have; several dimensions must be the same."""
-        if old.elem is None or new.elem is None:
+        """Move the elements whose indices both arrays have."""
+        if old.elem is None or new.elem is None or len(old.bounds) != len(new.bounds):
             return
-        old_size, new_size = self.old.types[old.elem].size, self.new.types[new.elem].size
-        if old.bounds == new.bounds:
-            for at in range(new.size // new_size if new_size else 0):
-                self.value(old.elem, old_at + at * old_size, new.elem, new_at + at * new_size)
-            return
-        if len(old.bounds) != 1 or len(new.bounds) != 1:
-            return
-        (old_low, old_high), (new_low, new_high) = old.bounds[0], new.bounds[0]
-        for index in range(max(old_low, new_low), min(old_high, new_high) + 1):
-            self.value(
-                old.elem,
-                old_at + (index - old_low) * old_size,
-                new.elem,
-                new_at + (index - new_low) * new_size,
-            )
+        size = self.old.types[old.elem].size, self.new.types[new.elem].size
+        for before, after in _shared_elements(old.bounds, new.bounds):
+            self.value(old.elem, old_at + before * size[0], new.elem, new_at + after * size[1])
 
     def move(self, old_at: int, new_at: int, size: int) -> None:
         """Note a move, joined to the one before it where they touch."""
@@ -188,34 +242,6 @@ class _Plan:
                 self.moves[-1] = (last_old, last_new, last_size + size)
                 return
         self.moves.append((old_at, new_at, size))
-
-    def equal(self, old_type: int, new_type: int) -> bool:
-        """Whether two types lay out and mean the same."""
-        key = (old_type, new_type)
-        known = self.same.get(key)
-        if known is None:
-            self.same[key] = True  # a recursive mention, through pointers
-            known = self.same[key] = self._equal(self.old.types[old_type], self.new.types[new_type])
-        return known
-
-    def _equal(self, old: TypeInfo, new: TypeInfo) -> bool:
-        if (old.kind, old.size, old.bounds, old.length) != (new.kind, new.size, new.bounds, new.length):
-            return False
-        if old.kind in ("pointer", "reference", "interface"):
-            return old.name == new.name
-        if old.elem is not None and new.elem is not None and not self.equal(old.elem, new.elem):
-            return False
-        if len(old.members) != len(new.members):
-            return False
-        if old.kind == "fb" and old.name != new.name:
-            return False
-        return all(
-            a.name.upper() == b.name.upper()
-            and (a.offset, a.bit, a.absolute) == (b.offset, b.bit, b.absolute)
-            and not _is_reinitialised(a, b)
-            and self.equal(a.type, b.type)
-            for a, b in zip(old.members, new.members, strict=True)
-        )
 
     def uncovered(self) -> list[tuple[int, int]]:
         """The fresh ranges without what moves fill."""
@@ -232,3 +258,15 @@ class _Plan:
             if at < end:
                 result.append((at, end - at))
         return result
+
+
+def _shared_elements(old: Bounds, new: Bounds) -> Iterator[tuple[int, int]]:
+    """Numbers, in the old and in the new array, of the elements that both have, in storage order."""
+    if not old:
+        yield 0, 0
+        return
+    (old_low, old_high), (new_low, new_high) = old[-1], new[-1]
+    before, after = old_high - old_low + 1, new_high - new_low + 1
+    for old_row, new_row in _shared_elements(old[:-1], new[:-1]):
+        for index in range(max(old_low, new_low), min(old_high, new_high) + 1):
+            yield old_row * before + index - old_low, new_row * after + index - new_low

@@ -32,9 +32,15 @@ class Fresh:
             else:
                 self.starts.append(start)
                 self.ends.append(start + size)
-        targets = sorted((target, target + size) for _, target, size in change.moves)
-        self.move_starts = [start for start, _ in targets]
-        self.move_ends = [end for _, end in targets]
+        places = [(target, target + size) for _, target, size in change.moves]
+        places += [(c.target.offset, c.target.offset + c.target.size) for c in change.conversions]
+        places.sort()
+        self.move_starts = [start for start, _ in places]
+        self.move_ends = [end for _, end in places]
+        # with a bit its byte is kept: what FB_Init makes of new bits beside it gives way
+        places = sorted({*places, *((target, target + 1) for _, _, target, _ in change.bits)})
+        self.kept_starts = [start for start, _ in places]
+        self.kept_ends = [end for _, end in places]
 
     def covers(self, offset: int) -> bool:
         """Whether the byte at `offset` is new."""
@@ -43,7 +49,7 @@ class Fresh:
 
     def kept(self, offset: int, size: int) -> list[tuple[int, int]]:
         """Parts of a range, by their offset inside it and length, that hold values of the running image."""
-        return _inside(self.move_starts, self.move_ends, offset, size)
+        return _inside(self.kept_starts, self.kept_ends, offset, size)
 
     def alike(self, offset: int, count: int, stride: int) -> Iterator[tuple[int, int]]:
         """The elements of an array, by number and count, of which the same parts are kept and new."""

@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta, Struct, field
 
+from tappet.codegen.converted_values import Conversion, convert
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.codegen.symbol_types import Bit
 from tappet.iec.heap import DEFAULT_HEAP
@@ -101,6 +102,8 @@ class OnlineChange(Struct, frozen=True):
     """Why the running application cannot become this one; '' when it can."""
     bits: tuple[tuple[Natural, Bit, Natural, Bit], ...] = ()
     """(old offset, old bit, new offset, new bit) of BIT members whose structure changed."""
+    conversions: tuple[Conversion, ...] = ()
+    """Values whose type has changed; where one does not fit, the initial value stays."""
 
 
 class Facts(Struct):
@@ -123,6 +126,8 @@ class Facts(Struct):
     """PLC-03."""
     heap_limit: Natural = DEFAULT_HEAP.limit
     """Bytes that __NEW may take in all."""
+    life_cycle: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    """Function block types, in upper case, with FB_INIT, FB_REINIT or FB_EXIT, and which of them."""
     heap_poison: bool = DEFAULT_HEAP.poison
     """Whether memory is filled when __DELETE gives it back."""
 
@@ -222,6 +227,8 @@ def _places(package: CodePackage) -> Iterator[tuple[str, int, int]]:
             yield "online change: what is initialised", offset, size
         for _, _, offset, _ in change.bits:
             yield "online change: a bit", offset, 1
+        for conversion in change.conversions:
+            yield "online change: what is converted", conversion.target.offset, conversion.target.size
 
 
 def _pack_image(image: bytes) -> bytes:
@@ -264,13 +271,21 @@ def rearranged(package: CodePackage, before: bytes) -> bytearray:
     for source, old_bit, target, new_bit in change.bits:
         cleared = after[target] & ~(1 << new_bit)
         after[target] = cleared | (before[source] >> old_bit & 1) << new_bit
+    for conversion in change.conversions:
+        convert(before, after, conversion)
     return after
 
 
 def left_behind(old: CodePackage, new: CodePackage) -> list[str]:
     """Functions of the old code to call before its data objects are moved or removed, in their order."""
     change = new.online_change
-    sources = sorted(start for start, _, _ in change.moves) if change is not None else []
+    sources: list[int] = []
+    if change is not None:
+        sources = sorted(
+            [start for start, _, _ in change.moves]
+            + [start for start, _, _, _ in change.bits]
+            + [conversion.source.offset for conversion in change.conversions]
+        )
     found = []
     for symbol, place in old.data_objects.items():
         function = COPY_EXIT_PREFIX + symbol

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from tappet.core.program import Program, attribute_value
 from tappet.lang import types as t
 from tappet.lang.parts import Holding
@@ -23,6 +25,17 @@ def life_cycle_methods(type_: t.FunctionBlock, name: str) -> list[PouSymbol]:
             found.insert(0, method)
         walk = walk.base
     return found
+
+
+def life_cycle_of(types: Iterable[t.Type]) -> dict[str, tuple[str, ...]]:
+    """Which blocks, by upper-case name, have which of the methods, of their own or from a base."""
+    found = {}
+    for type_ in types:
+        if isinstance(type_, t.FunctionBlock):
+            methods = tuple(n for n in ("FB_EXIT", "FB_INIT", "FB_REINIT") if life_cycle_methods(type_, n))
+            if methods:
+                found[type_.name.upper()] = methods
+    return dict(sorted(found.items()))
 
 
 def holding(program: Program, name: str) -> Holding[t.Type]:

@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import msgpack
-from msgspec import to_builtins
+from msgspec import convert, to_builtins
 
+from tappet.codegen.change_report import ChangeReport
 from tappet.iec.heap import DEFAULT_HEAP, HeapSettings
 from tappet.iec.places import Span
 from tappet.iec.source import Scope, Source
@@ -33,6 +34,7 @@ from tappet.server.worker_process import WorkerCrashedError, WorkerProcess
 log = logging.getLogger(__name__)
 KEPT_BUILDS = 32
 """Newest build of so many applications stay at hand."""
+NO_CHANGES = ChangeReport()
 WORKER = (sys.executable, "-m", "tappet.server.builds.worker")
 
 
@@ -107,6 +109,8 @@ class Built:
     change_base: str | None
     """Code id of the package that this one can be changed over from."""
     change_reasons: tuple[str, ...]
+    changes: ChangeReport = NO_CHANGES
+    """What an online change from there does to the variables."""
 
 
 class Builder:
@@ -242,6 +246,7 @@ class Builder:
             outcome["package"],
             outcome["change_base"],
             tuple(outcome["change_reasons"]),
+            convert(outcome["change_report"], ChangeReport),
         )
         self._cleaned.discard(key)
         self._built[key] = built

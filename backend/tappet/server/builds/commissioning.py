@@ -7,6 +7,7 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from msgspec import structs
 from starlette.concurrency import run_in_threadpool
 
 from tappet.project.kinds.application import ApplicationData
@@ -18,7 +19,7 @@ from tappet.runtime.exception_report import summary
 from tappet.runtime.operations.life_cycle import Start
 from tappet.server.builds.builder import Application, Builder, Built
 from tappet.server.builds.packages import PackageStore, StoredPackage
-from tappet.server.builds.shapes import BuildReport, LoginReport, Relation
+from tappet.server.builds.shapes import BuildReport, ChangedVariable, LoginReport, Relation
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.plc_client import LoadMode
@@ -137,7 +138,12 @@ class Commissioning:
             return LoginReport(relation=Relation.SAME, reasons=[])
         if built.change_base == info.code_id:
             reasons = list(built.change_reasons) or ["Only code has changed; all data stay in place."]
-            return LoginReport(relation=Relation.ONLINE_CHANGE, reasons=reasons)
+            return LoginReport(
+                relation=Relation.ONLINE_CHANGE,
+                reasons=reasons,
+                changes=[ChangedVariable(**structs.asdict(row)) for row in built.changes.rows],
+                changes_omitted=built.changes.omitted,
+            )
         reasons = list(built.change_reasons) or ["The running application is another one."]
         return LoginReport(relation=Relation.DOWNLOAD, reasons=reasons)
 

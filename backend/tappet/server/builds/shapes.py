@@ -7,6 +7,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field, PrivateAttr
 
+from tappet.codegen.change_report import Effect, Reason
 from tappet.lang.diagnostic_translations import Texts, said
 from tappet.server.shapes import Reply, Request
 from tappet.server.source.shapes import StoredSource
@@ -87,6 +88,22 @@ class LoginTarget(Request):
     runtime_id: str
 
 
+class ChangedVariable(Reply):
+    """What an online change does to one variable, and why."""
+
+    path: str
+    effect: Effect = Field(
+        description="`initialised`: begins with its initial value; `converted`: its value comes to the new "
+        "type where it fits; `moved`: keeps its value at another place; `kept`: stays, without the initial "
+        "value that is now declared; `lost`: is there no more."
+    )
+    reason: Reason
+    type: str = Field(description="Afterwards; that before, for a variable that is lost.")
+    before: str = Field(description="The type before, where it is another one.")
+    calls: list[str] = Field(description="Of FB_Exit, FB_Init and FB_Reinit, which are called.")
+    remanent: bool = Field(description="RETAIN or PERSISTENT.")
+
+
 class LoginReport(Reply):
     """Whether values may be shown at once, and what must be loaded first otherwise."""
 
@@ -94,6 +111,10 @@ class LoginReport(Reply):
 
     relation: Relation
     reasons: list[str] = Field(description="What differs, one sentence each.")
+    changes: list[ChangedVariable] = Field(
+        default=[], description="What an online change does to the variables, in the order of declarations."
+    )
+    changes_omitted: int = Field(default=0, description="Variables beyond those of the list.")
     loaded_project: str | None = Field(
         default=None, description="Name of the project that the runtime's application came from, when known."
     )

@@ -16,9 +16,10 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from msgspec import convert, structs
+from msgspec import convert, structs, to_builtins
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
+from tappet.codegen.change_report import ChangeReport, change_report
 from tappet.codegen.package import CodePackage
 from tappet.iec.heap import HeapSettings
 from tappet.iec.task import Task
@@ -120,6 +121,7 @@ class Compiler:
             "data_id": package.data_id if package else None,
             "change_base": (change.base_code_id or None) if change else None,
             "change_reasons": list(change.reasons) if change else [],
+            "change_report": _changes(previous, package),
             "code_size": result.code_size,
             "data_size": result.data_size,
             "diagnostics": [_fields(diagnostic) for diagnostic in result.diagnostics],
@@ -137,6 +139,13 @@ class Compiler:
                 return known[1]
         self._previous = data, CodePackage.from_bytes(data)
         return self._previous[1]
+
+
+def _changes(previous: CodePackage | None, package: CodePackage | None) -> dict[str, Any]:
+    """What an online change would do to the variables, as plain data."""
+    report = ChangeReport() if previous is None or package is None else change_report(previous, package)
+    fields: dict[str, Any] = to_builtins(report)
+    return fields
 
 
 def _fields(diagnostic: Diagnostic) -> dict[str, Any]:
