@@ -16,7 +16,7 @@ from random import Random
 from typing import Any
 
 import typed_tree as tree
-from bytes_in_memory import View
+from bytes_in_memory import Unsettled, View
 from reference import Machine
 from reference_values import copied, line, overwrite, stored
 
@@ -246,6 +246,8 @@ class _Keeping:
 
     old: Machine
     new: Machine
+    with_init: bool = False
+    """Whether a block with FB_Init was met."""
 
     def _of_methods(self, block: tree.Block, value: Any, place: Any) -> None:
         """VAR_INST of methods that are still there."""
@@ -267,6 +269,7 @@ class _Keeping:
         if isinstance(new, tree.Block) and isinstance(old, tree.Block):
             if new.name == old.name:
                 self._of_methods(new, value, holder[key])
+                self.with_init = self.with_init or any(b.init is not None for b in line(new))
                 self.all(old.members, value, new.members, holder[key])
         elif isinstance(new, tree.Struct) and isinstance(old, tree.Struct):
             if new.name == old.name:
@@ -283,7 +286,17 @@ class _Keeping:
         ):
             holder[key] = value
         elif isinstance(new, tree.Scalar) and isinstance(old, tree.Scalar):
-            holder[key] = _converted(old, value, new, holder[key])
+            holder[key] = self._converted(old, value, new, holder[key])
+
+    def _converted(self, old: tree.Scalar, value: Any, new: tree.Scalar, initial: Any) -> Any:
+        """A number in an integer type if it has it, else the initial value: not what FB_Init makes of it."""
+        if not new.integer or not (old.integer or old.kind in ("bool", "real")):
+            return initial
+        if math.isfinite(value) and new.low <= value <= new.high and value == int(value):
+            return int(value)
+        if self.with_init:
+            raise Unsettled
+        return initial
 
     def members(self, old: tree.Struct, value: Any, new: tree.Struct, place: Any) -> None:
         if old == new:
@@ -309,11 +322,3 @@ class _Keeping:
             before = tree.Array(old.element, rest) if rest else old.element
             after = tree.Array(new.element, rest) if rest else new.element
             self.one(before, value[i], after, place, i)
-
-
-def _converted(old: tree.Scalar, value: Any, new: tree.Scalar, initial: Any) -> Any:
-    """A number in an integer type if it has it, else the initial value."""
-    if not new.integer or not (old.integer or old.kind in ("bool", "real")):
-        return initial
-    fits = math.isfinite(value) and new.low <= value <= new.high and value == int(value)
-    return int(value) if fits else initial

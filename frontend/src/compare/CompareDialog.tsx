@@ -22,6 +22,8 @@ interface CompareDialogProps {
   projectId: string;
   projectName: string;
   runtimeId: string | null;
+  /** A comparison that has been made already: nothing is chosen any more. */
+  found?: Comparison;
   close: () => void;
 }
 
@@ -30,7 +32,7 @@ type Source = 'project' | 'files' | 'runtime';
 /** Compares the open project with another one, with files, or with what a runtime runs. */
 export function CompareDialog(props: CompareDialogProps) {
   const { projectId, projectName, close } = props;
-  const [opened, setOpened] = useState<Comparison | null>(null);
+  const [opened, setOpened] = useState<Comparison | null>(props.found ?? null);
   useForgotten(projectId, opened?.id);
   return opened ? (
     <ComparedDialog projectId={projectId} projectName={projectName} opened={opened} close={close} />

@@ -1,6 +1,6 @@
 /** What the editors add to the workbench; their components are loaded when the first object opens. */
 import { Waypoints } from 'lucide-react';
-import { setSymbolActs } from '@/online/symbolActs';
+import { setSymbolActs } from '@/workbench/symbolActs';
 import { partUri } from '@/project/partUri';
 import { registerLanguage, type LanguageDescriptor } from '@/text/languages';
 import { loadMonaco } from '@/text/monacoLoader';

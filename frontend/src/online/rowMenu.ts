@@ -7,7 +7,7 @@ import { runCommand } from '@/workbench/run';
 import type { MenuEntry } from '@/ui/Menu';
 import { copyChosen } from './copyRows';
 import { prepare, preparedLiteral } from './prepared';
-import { actOnSymbol } from './symbolActs';
+import { actOnSymbol } from '@/workbench/symbolActs';
 import type { OnlineRow } from './treeRows';
 import { addToList, useWatchLists, WATCH_LISTS } from './watch/lists';
 

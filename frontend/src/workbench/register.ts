@@ -1,5 +1,15 @@
 /** What the workbench itself brings: its tool panels and the commands of the menus. */
-import { FileText, FolderTree, Layers, Library, ListChecks, ScrollText, SquareFunction, Timer } from 'lucide-react';
+import {
+  FileText,
+  FolderTree,
+  Layers,
+  Library,
+  ListChecks,
+  ScrollText,
+  SquareFunction,
+  Timer,
+  Zap,
+} from 'lucide-react';
 import { registerEditCommands } from './commands/edit';
 import { registerExchangeCommands } from './commands/exchange';
 import { registerFileCommands } from './commands/file';
@@ -72,6 +82,14 @@ export function registerWorkbench(): void {
     position: 'bottom',
     order: 60,
     initial: true,
+  });
+  registerPanel({
+    id: 'onlineChanges',
+    title: 'panel.onlineChanges',
+    icon: Zap,
+    component: onDemand(() => import('./online/ChangesPanel')),
+    position: 'bottom',
+    order: 62,
   });
   registerPanel({
     id: 'callStack',

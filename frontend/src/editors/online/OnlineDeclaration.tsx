@@ -12,7 +12,7 @@ import { commonEntries } from '@/online/rowMenu';
 import type { SymbolChild } from '@/online/symbols';
 import type { OnlineRoot, OnlineRow } from '@/online/treeRows';
 import { useSymbols } from '@/online/useLive';
-import { actOnSymbol, type SymbolActs } from '@/online/symbolActs';
+import { actOnSymbol, type SymbolActs } from '@/workbench/symbolActs';
 import { goToDefinition } from '@/lsp/definition';
 import type { EditorProps } from '@/project/editorProps';
 import type { OnlineSession } from '@/workbench/onlineSession';

@@ -5,7 +5,7 @@ import type { RuntimeState } from '@/api/types';
 import { useText } from '@/i18n';
 import { confirm, openDialog } from '@/ui/dialogs';
 import { guard } from '@/ui/notices';
-import { LOCAL_RUNTIME } from '@/workbench/online/acts';
+import { LOCAL_RUNTIME } from '@/workbench/online/offlineTarget';
 import { runtimeText, toneOfRuntime } from '@/workbench/online/runtimeText';
 import { Button, IconButton } from '@/ui/Button';
 import { Empty, Failed, Loading } from '@/ui/Empty';

@@ -1,4 +1,4 @@
-import { LOCAL_RUNTIME } from '@/workbench/online/acts';
+import { LOCAL_RUNTIME } from '@/workbench/online/offlineTarget';
 import type { OnlineSession } from '@/workbench/onlineSession';
 
 /** The runtime whose values move the scene: the one logged in to, else the server's own. */

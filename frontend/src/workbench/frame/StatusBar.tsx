@@ -21,6 +21,7 @@ import { usePresence } from '../events';
 import { countOf, presentMessages, useMessages } from '../messages/store';
 import { exceptionPlace, exceptionText, exceptionTitle, jumpToFrame } from '../online/exception';
 import { microsText } from '../online/times';
+import { useKnownRelation } from '../online/knownRelation';
 import { useRuntimeState, useTasks } from '../online/poll';
 import { runtimeText } from '../online/runtimeText';
 import { useOnline, type OnlineSession } from '../onlineSession';
@@ -129,10 +130,10 @@ function RelationItem({ relation }: { relation: LoginRelation }) {
   const t = useText();
   const { icon: Icon, className } = RELATIONS[relation];
   return (
-    <Tooltip text={t(`relation.${relation}`)} side="top">
-      <span className={`${styles.item} ${className}`}>
+    <Tooltip text={t(`relation.${relation}`)} detail={t('changes.show')} side="top">
+      <button className={`${styles.item} ${className}`} onClick={() => showPanel('onlineChanges')}>
         <Icon size={14} aria-label={t(`relation.${relation}`)} />
-      </span>
+      </button>
     </Tooltip>
   );
 }
@@ -191,12 +192,32 @@ function ExceptionItem({ session }: { session: OnlineSession }) {
 function OfflineItem() {
   const t = useText();
   const applicationId = useProject((state) => state.applicationId);
+  const relation = useKnownRelation((state) =>
+    applicationId ? state.known[applicationId]?.answer.relation : undefined,
+  );
   if (!applicationId) return null;
   return (
-    <Tooltip text={t('command.login')} shortcut="Alt+F8" side="top">
-      <button className={styles.item} onClick={() => void runCommand('online.login')}>
-        <Unplug size={13} aria-hidden />
-        {t('status.offline')}
+    <>
+      <Tooltip text={t('command.login')} shortcut="Alt+F8" side="top">
+        <button className={styles.item} onClick={() => void runCommand('online.login')}>
+          <Unplug size={13} aria-hidden />
+          {t('status.offline')}
+        </button>
+      </Tooltip>
+      {relation && relation !== 'empty' && <OfflineRelation relation={relation} />}
+    </>
+  );
+}
+
+/** What a login would find, in words: it is what one wants to know before one goes there. */
+function OfflineRelation({ relation }: { relation: LoginRelation }) {
+  const t = useText();
+  const { icon: Icon, className } = RELATIONS[relation];
+  return (
+    <Tooltip text={t(`relation.${relation}`)} detail={t('changes.show')} side="top">
+      <button className={`${styles.item} ${className}`} onClick={() => showPanel('onlineChanges')}>
+        <Icon size={13} aria-hidden />
+        {t(`relation.short.${relation}`)}
       </button>
     </Tooltip>
   );

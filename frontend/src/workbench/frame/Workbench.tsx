@@ -12,6 +12,8 @@ import { DockArea } from '../docking/DockArea';
 import { restoreLayout } from '../docking/layout';
 import { openEvents, type ProjectEvents } from '../events';
 import { forgetBuild } from '../messages/store';
+import { forgetRelations } from '../online/knownRelation';
+import { offlineTarget } from '../online/offlineTarget';
 import { compareLogin, followRelation } from '../online/relation';
 import { resumeLogins } from '../online/resume';
 import { useOnline } from '../onlineSession';
@@ -100,6 +102,7 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
       selectObjects([]);
       forgetBuild();
       useOnline.setState({ sessions: {}, forces: {}, forcedPlaces: {} });
+      forgetRelations();
       useProject.setState({ projectId: null, projectName: '', applicationId: null, busy: null });
     };
     // Once per project: later changes of the objects reach the views through their own queries.
@@ -108,8 +111,9 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
 
   const events = useRef<ProjectEvents | null>(null);
   useEffect(() => {
-    const relation = followRelation(({ applicationId, runtimeId }) =>
-      compareLogin(projectId, applicationId, runtimeId),
+    const relation = followRelation(
+      ({ applicationId, runtimeId }) => compareLogin(projectId, applicationId, runtimeId),
+      offlineTarget,
     );
     const logins = resumeLogins(projectId);
     events.current = openEvents(projectId, relation.projectChanged);

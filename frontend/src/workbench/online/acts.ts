@@ -17,11 +17,10 @@ import { ofRole } from '@/project/kinds';
 import { useProject } from '@/project/openProject';
 import { atLeast } from '../rights';
 import { askDownload, askLogin, askLoginWithErrors, askRuntime } from './dialogs';
+import { relationKnown } from './knownRelation';
+import { LOCAL_RUNTIME } from './offlineTarget';
 import { compareLogin } from './relation';
 import { sourceWanted, tellSourceProblem } from './source';
-
-/** The runtime on the server's own machine; devices in simulation run there. */
-export const LOCAL_RUNTIME = 'local';
 
 /** Runs a long act with its name in the status bar; one at a time. */
 async function busy<Answer>(text: string, act: (signal: AbortSignal) => Promise<Answer>): Promise<Answer> {
@@ -232,6 +231,14 @@ function tellBuildErrors(): void {
   notify({ tone: 'error', title: t('login.buildErrors'), text: t('login.buildErrorsText') });
 }
 
+const NOTHING_TO_LOAD: LoginAnswer = {
+  relation: 'same',
+  reasons: [],
+  changes: [],
+  changes_omitted: 0,
+  loaded_project: null,
+};
+
 /** Brings the built application into the runtime and shows its values from then on. */
 async function load(
   context: CommandContext,
@@ -247,6 +254,7 @@ async function load(
       body: { runtime_id: runtimeId, mode, start, source },
     }),
   );
+  relationKnown(context.applicationId!, runtimeId, NOTHING_TO_LOAD);
   if (commandContext().online?.runtimeId === runtimeId) relationChanged(context.applicationId!, 'same');
   else loggedIn(context.applicationId!, runtimeId, 'same');
   runtimePolled(runtimeId, await api.get('/api/v1/runtimes/{runtime_id}', runtimeAt(runtimeId)));

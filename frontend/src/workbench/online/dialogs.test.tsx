@@ -16,6 +16,8 @@ const machine = (state: RuntimeState['state']) =>
 const found = (relation: LoginAnswer['relation'], loaded_project: string | null = null): LoginAnswer => ({
   relation,
   reasons: [],
+  changes: [],
+  changes_omitted: 0,
   loaded_project,
 });
 const names = { application: 'Application', project: 'Line 2' };

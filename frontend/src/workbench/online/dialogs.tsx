@@ -6,6 +6,7 @@ import { openDialog } from '@/ui/dialogs';
 import { FormDialog } from '@/ui/FormDialog';
 import { Checkbox } from '@/ui/Field';
 import { RadioCards } from '@/ui/RadioCards';
+import { ChangesTable } from './ChangesTable';
 import styles from './dialogs.module.css';
 import { loginChoices, proposedChoice, type LoginHow } from './loginChoices';
 import { RuntimeDialog } from './RuntimeDialog';
@@ -84,7 +85,7 @@ function LoginDialog({
     <FormDialog
       title={t('login.title')}
       description={t(`login.relation.${relation}`, values)}
-      width={520}
+      width={answer.changes.length > 0 ? 860 : 520}
       onClose={() => close()}
       onSubmit={() => close({ how, start: how === 'download' && start })}
       action={t(`login.do.${how}`)}
@@ -103,7 +104,13 @@ function LoginDialog({
           onValue={setHow}
         />
       )}
-      {answer.relation !== 'empty' && answer.reasons.length > 0 && <Reasons reasons={answer.reasons} />}
+      {answer.changes.length > 0 ? (
+        <div className={styles.changes}>
+          <ChangesTable answer={answer} onLeave={() => close()} />
+        </div>
+      ) : (
+        answer.relation !== 'empty' && answer.reasons.length > 0 && <Reasons reasons={answer.reasons} />
+      )}
       {how === 'download' && (
         <>
           {running && <p className={styles.warning}>{t('login.stops')}</p>}
