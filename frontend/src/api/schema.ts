@@ -3870,6 +3870,45 @@ export interface components {
             ];
         };
         /**
+         * ChangedVariable
+         * @description What an online change does to one variable, and why.
+         */
+        ChangedVariable: {
+            /**
+             * Before
+             * @description The type before, where it is another one.
+             */
+            before: string;
+            /**
+             * Calls
+             * @description Of FB_Exit, FB_Init and FB_Reinit, which are called.
+             */
+            calls: string[];
+            /**
+             * Effect
+             * @description `initialised`: begins with its initial value; `converted`: its value comes to the new type where it fits; `moved`: keeps its value at another place; `kept`: stays, without the initial value that is now declared; `lost`: is there no more.
+             * @enum {string}
+             */
+            effect: "initialised" | "converted" | "moved" | "kept" | "lost";
+            /** Path */
+            path: string;
+            /**
+             * Reason
+             * @enum {string}
+             */
+            reason: "new" | "new_elements" | "type_changed" | "no_copy" | "init_on_change" | "constant" | "address" | "string_shortened" | "place" | "initial_value" | "removed" | "elements_removed";
+            /**
+             * Remanent
+             * @description RETAIN or PERSISTENT.
+             */
+            remanent: boolean;
+            /**
+             * Type
+             * @description Afterwards; that before, for a variable that is lost.
+             */
+            type: string;
+        };
+        /**
          * ChannelMapping
          * @description How the channels of a drive are bound to its axis (AXIS-22).
          */
@@ -5622,6 +5661,18 @@ export interface components {
          * @description Whether values may be shown at once, and what must be loaded first otherwise.
          */
         LoginReport: {
+            /**
+             * Changes
+             * @description What an online change does to the variables, in the order of declarations.
+             * @default []
+             */
+            changes: components["schemas"]["ChangedVariable"][];
+            /**
+             * Changes Omitted
+             * @description Variables beyond those of the list.
+             * @default 0
+             */
+            changes_omitted: number;
             /**
              * Loaded Project
              * @description Name of the project that the runtime's application came from, when known.
