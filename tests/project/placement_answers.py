@@ -64,6 +64,8 @@ def every_kind() -> Project:
     pool = add(application.id, "axis_pool", "SoftMotion General Axis Pool")
     add(pool, "axis", "Axis")
     add(application.id, "cam", "Cam")
+    manager = add(application.id, "recipe_manager", "Recipe Manager")
+    add(manager, "recipe_definition", "Recipes")
     add(None, "script", "Script")
     add(None, "page_setup", "Page Setup")
     inner = add(application.id, "application", "Second")

@@ -40,6 +40,7 @@ FILES_FOR_OTHERS = {
     "project/kinds/dut.py": "declarations",
     "project/kinds/gvl.py": "declarations",
     "project/kinds/script.py": "the text of a new script",
+    "project/recipes/code.py": "declarations",
     "runtime/__main__.py": "the command line",
     "runtime/executive/records.py": "our own mistakes",
     "runtime/link.py": "a damaged package, which no build makes",

@@ -7,6 +7,7 @@ from tappet.lang import types as t
 from tappet.lang.analysis.context import Body, DirectWrite
 from tappet.lang.analysis.expressions import is_null, text_of
 from tappet.lang.analysis.result import yields_reference
+from tappet.lang.attributes import attribute
 from tappet.lang.symbols import (
     EnumValueSymbol,
     GvlSymbol,
@@ -197,11 +198,20 @@ def _access_allowed(b: Body, e: ast.Member, symbol: VarSymbol) -> bool:
         return True
     if symbol.section == "VAR_INPUT" or owner is b.block or symbol.access in ("PUBLIC", "INTERNAL"):
         return True
-    if symbol.section in ("VAR", "VAR_OUTPUT", "VAR_INST"):
+    if symbol.section in ("VAR", "VAR_OUTPUT", "VAR_INST") and not _is_value_check(b):
         name = owner.name if isinstance(owner, PouSymbol) else str(base.type)
         b.report("E0209", e.name_span, name=symbol.name, type=name, what=_WHAT[symbol.section])
         return False
     return True
+
+
+def _is_value_check(b: Body) -> bool:
+    """Whether the function is made to check values that tables have for variables, and is never called."""
+    return (
+        b.pou is not None
+        and b.pou.pou is not None
+        and (attribute(b.pou.pou.attributes, "tappet_value_check") is not None)
+    )
 
 
 _WHAT = {"VAR": "a local variable", "VAR_OUTPUT": "an output", "VAR_INST": "a local variable"}
