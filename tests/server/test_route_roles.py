@@ -56,9 +56,11 @@ OF_VIEWERS = {
     "/api/v1/projects/{project_id}/comparisons/files",
     "/api/v1/projects/{project_id}/comparisons/{comparison_id}",
     "/api/v1/projects/{project_id}/objects/{object_id}/view",
+    "/api/v1/projects/{project_id}/recipes/{definition_id}/file",
     "/api/v1/projects/{project_id}/search",
     "/api/v1/runtimes/{runtime_id}/cams/{name}/read",
     "/api/v1/runtimes/{runtime_id}/flight/read",
+    "/api/v1/runtimes/{runtime_id}/recipes/compare",
     "/api/v1/runtimes/{runtime_id}/values/read",
 }
 """Who only looks may do these, too: read with a body, look after what is their own."""

@@ -39,6 +39,7 @@ from tappet.server.objects import routes as routes_objects
 from tappet.server.online import routes as routes_online
 from tappet.server.personal_settings import routes as routes_settings
 from tappet.server.projects import routes as routes_projects
+from tappet.server.recipes import routes as routes_recipes
 from tappet.server.runtimes import operations
 from tappet.server.runtimes import routes as routes_runtimes
 from tappet.server.runtimes.plc_client import Connect
@@ -82,6 +83,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_history.router,
     routes_comparisons.router,
     routes_scenes.router,
+    routes_recipes.router,
     routes_cams.router,
     routes_running_cams.router,
     routes_tuning.router,
