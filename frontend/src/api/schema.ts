@@ -1501,6 +1501,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/recipes/{definition_id}/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Parse Recipe File
+         * @description What a recipe file holds for a definition; nothing is changed.
+         */
+        post: operations["parse_recipe_file"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/recipes/{definition_id}/{recipe}/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Recipe
+         * @description A recipe as a file of text, in the columns of the recipe manager.
+         */
+        get: operations["export_recipe"];
+        /**
+         * Import Recipe
+         * @description Take the values of a recipe file into a recipe; it is made if it is not there.
+         */
+        put: operations["import_recipe"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/redo": {
         parameters: {
             query?: never;
@@ -2029,6 +2073,68 @@ export interface paths {
         get: operations["log"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/recipes/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Compare Recipes
+         * @description The variables of a definition with their present values, and the recipes that have others.
+         */
+        post: operations["compare_recipes"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/recipes/read": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Recipe
+         * @description Take the present values of all variables of a definition, of one moment, into a recipe; it is made if
+         *     it is not there.
+         */
+        post: operations["read_recipe"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/recipes/write": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Write Recipe
+         * @description Write all values of a recipe at the beginning of one cycle, or none; a value beyond a limit becomes the
+         *     limit.
+         */
+        post: operations["write_recipe"];
         delete?: never;
         options?: never;
         head?: never;
@@ -4047,6 +4153,28 @@ export interface components {
             theirs: string;
         };
         /**
+         * ComparedValue
+         * @description A variable of a definition beside its value in the controller.
+         */
+        ComparedValue: {
+            /**
+             * Differing
+             * @description The recipes that have another value.
+             */
+            differing: string[];
+            /** Error */
+            error: string | null;
+            /** Path */
+            path: string;
+            /**
+             * Present
+             * @description As IEC literal.
+             */
+            present: string | null;
+            /** Type */
+            type: string | null;
+        };
+        /**
          * Comparison
          * @description An object in the project beside the one of the file.
          */
@@ -4212,6 +4340,19 @@ export interface components {
              * @default 1000
              */
             samples?: number;
+        };
+        /**
+         * DefinitionOrder
+         * @description A recipe definition of a project.
+         */
+        DefinitionOrder: {
+            /**
+             * Definition Id
+             * @description Object of the kind `recipe_definition`.
+             */
+            definition_id: string;
+            /** Project Id */
+            project_id: string;
         };
         /**
          * DeletedObject
@@ -6257,7 +6398,7 @@ export interface components {
          * ObjectDetail
          * @description An object with its data, whose shape depends on `kind`.
          */
-        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["CamObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["TraceObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
+        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["CamObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["RecipeManagerObject"] | components["schemas"]["RecipeDefinitionObject"] | components["schemas"]["TraceObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ObjectMove
          * @description A new name or place; what is left out stays. A new parent without index: the end of its children.
@@ -7063,6 +7204,276 @@ export interface components {
         ReadOrder: {
             /** Expressions */
             expressions: string[];
+        };
+        /**
+         * Recipe
+         * @description A column of a recipe definition.
+         */
+        Recipe: {
+            /** Name */
+            name: string;
+            /**
+             * Values
+             * @description IEC literals by the path of the variable; where there is none, the variable's own value counts when the application starts.
+             */
+            values: {
+                [key: string]: string;
+            };
+        };
+        /**
+         * RecipeComparison
+         * @description A definition beside the controller; all values are of one moment.
+         */
+        RecipeComparison: {
+            /** Values */
+            values: components["schemas"]["ComparedValue"][];
+        };
+        /**
+         * RecipeDefinitionData
+         * @description Variables, and recipes with a value for each.
+         */
+        RecipeDefinitionData: {
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build?: boolean;
+            /** Recipes */
+            recipes: components["schemas"]["Recipe"][];
+            /** Variables */
+            variables: components["schemas"]["RecipeVariable"][];
+        };
+        /**
+         * RecipeDefinitionObject
+         * @description Variables of an application, and recipes with values for them.
+         */
+        RecipeDefinitionObject: {
+            data: components["schemas"]["RecipeDefinitionData"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "recipe_definition";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
+        };
+        /**
+         * RecipeManagerData
+         * @description How recipes are kept in the controller.
+         */
+        RecipeManagerData: {
+            /**
+             * Columns
+             * @description What stands in a line of a file, left to right.
+             * @default [
+             *       "variable",
+             *       "value"
+             *     ]
+             */
+            columns: ("variable" | "type" | "name" | "minimum" | "maximum" | "comment" | "value")[];
+            /**
+             * Exact Match
+             * @description A file is refused when its variables are not exactly those of the definition; otherwise those of the same path are taken.
+             * @default false
+             */
+            exact_match: boolean;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build?: boolean;
+            /**
+             * Extension
+             * @default txtrecipe
+             */
+            extension: string;
+            /**
+             * In Controller
+             * @description Programs can use the recipes by the blocks of the library.
+             * @default true
+             */
+            in_controller: boolean;
+            /**
+             * Load At Start
+             * @description When the application starts, files that are there count instead of the values of the project.
+             * @default true
+             */
+            load_at_start: boolean;
+            /**
+             * Path
+             * @description Folder below that of the files of the controller; empty: that one.
+             * @default
+             */
+            path: string;
+            /**
+             * Save Changes
+             * @description A recipe that changes in the controller is saved in its file.
+             * @default true
+             */
+            save_changes: boolean;
+            /**
+             * Separator
+             * @default :=
+             * @enum {string}
+             */
+            separator: ":=" | ";" | "," | "\t" | " " | "|";
+            /**
+             * Storage
+             * @description Lines of text, or the bytes of the values, which fit the same variables only.
+             * @default textual
+             * @enum {string}
+             */
+            storage: "textual" | "binary";
+        };
+        /**
+         * RecipeManagerObject
+         * @description How recipes of an application are kept in the controller.
+         */
+        RecipeManagerObject: {
+            data: components["schemas"]["RecipeManagerData"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "recipe_manager";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
+        };
+        /**
+         * RecipeOrder
+         * @description A recipe of a definition.
+         */
+        RecipeOrder: {
+            /**
+             * Definition Id
+             * @description Object of the kind `recipe_definition`.
+             */
+            definition_id: string;
+            /** Project Id */
+            project_id: string;
+            /** Recipe */
+            recipe: string;
+        };
+        /**
+         * RecipeText
+         * @description A recipe file.
+         */
+        RecipeText: {
+            /** Text */
+            text: string;
+        };
+        /**
+         * RecipeValues
+         * @description What a recipe file holds for a definition.
+         */
+        RecipeValues: {
+            /**
+             * Missing
+             * @description Variables of the definition that the file does not have.
+             */
+            missing: string[];
+            /**
+             * Unknown
+             * @description Paths that the definition does not have.
+             */
+            unknown: string[];
+            /**
+             * Values
+             * @description Literals by the paths of the definition.
+             */
+            values: {
+                [key: string]: string;
+            };
+        };
+        /**
+         * RecipeVariable
+         * @description A row of a recipe definition.
+         */
+        RecipeVariable: {
+            /**
+             * Comment
+             * @default
+             */
+            comment: string;
+            /**
+             * Maximum
+             * @default
+             */
+            maximum: string;
+            /**
+             * Minimum
+             * @description Literal; a smaller value becomes this one when it is written. Empty: none.
+             * @default
+             */
+            minimum: string;
+            /**
+             * Name
+             * @default
+             */
+            name: string;
+            /**
+             * Path
+             * @description Path of an elementary variable: `PLC_PRG.fbOven.rTemperature`.
+             * @default
+             */
+            path: string;
+        };
+        /**
+         * RecipeWritten
+         * @description What the variables hold after a recipe was written.
+         */
+        RecipeWritten: {
+            /**
+             * Limited
+             * @description Paths whose values were beyond their limits, and set to them.
+             */
+            limited: string[];
+            /** Values */
+            values: components["schemas"]["Value"][];
         };
         /**
          * Relation
@@ -12857,6 +13268,139 @@ export interface operations {
             };
         };
     };
+    parse_recipe_file: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                definition_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RecipeText"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecipeValues"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    export_recipe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                definition_id: string;
+                recipe: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    import_recipe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                definition_id: string;
+                recipe: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RecipeText"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ObjectDetail"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     redo_step: {
         parameters: {
             query?: never;
@@ -14009,6 +14553,138 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["LogEntry"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    compare_recipes: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DefinitionOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecipeComparison"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_recipe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RecipeOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ObjectDetail"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    write_recipe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RecipeOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecipeWritten"];
                 };
             };
             /** @description The request was refused */
