@@ -51,6 +51,9 @@ def is_simple(expr: ir.Expr) -> bool:
 class ExpressionEmitter(CallEmitter):
     """Everything about values."""
 
+    relies_on_proofs = True
+    """Whether nobody but the program writes its variables, so that what was proved of them holds."""
+
     def expr(self, expr: ir.Expr) -> str:
         """Operand text of the value."""
         if isinstance(expr, ir.Const):
@@ -125,7 +128,7 @@ class ExpressionEmitter(CallEmitter):
         if op in ("div", "rem"):
             return self.divide(expr)
         left, right = self.expr(expr.left), self.expr(expr.right)
-        exact = "nsw " if expr.exact else ""
+        exact = "nsw " if expr.exact and self.relies_on_proofs else ""
         return self.value(f"{_INTEGER_OPS[op]} {exact}{t} {left}, {right}")
 
     def _extremum(self, expr: ir.Binary) -> str:

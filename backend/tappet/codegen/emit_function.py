@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
 
 from tappet.codegen.emit_expression import ExpressionEmitter, is_simple
 from tappet.codegen.emit_place import COLD, WRITTEN, ModuleState
@@ -18,6 +18,9 @@ _KEPT = 'call void asm sideeffect "", "r,~{{memory}}"(ptr {})'
 
 class FunctionEmitter(ExpressionEmitter):
     """Emits one function."""
+
+    handlers: ClassVar[dict[type[ir.Stmt], Callable[[Any, Any], None]]] = {}
+    """What emits each kind of statement."""
 
     def __init__(self, state: ModuleState, function: ir.Function) -> None:
         super().__init__(state, function)
@@ -42,7 +45,7 @@ class FunctionEmitter(ExpressionEmitter):
             f"{llvm_type(p.type)}{parameter_attributes(p)} %a{i}" for i, p in enumerate(function.parameters)
         )
         head = (
-            f"define {linkage}{result} {function_symbol(function)}({parameters}) {attributes(function)} "
+            f"define {linkage}{result} {function_symbol(function)}({parameters}) {self.attributes()} "
             f"!dbg !{self.subprogram} {{"
         )
         if function.returns_twice:
@@ -51,12 +54,16 @@ class FunctionEmitter(ExpressionEmitter):
             self.prologue.append(WRITTEN)
         return [head, "entry:", *self.prologue, "br label %start", "start:", *self.out, "}"]
 
+    def attributes(self) -> str:
+        """Attribute groups of the function."""
+        return attributes(self.function)
+
     def statements(self, body: list[ir.Stmt]) -> None:
         """Emit statements in order; what cannot be reached is left out."""
         for statement in body:
             if self.terminated and type(statement) is not ir.Label:
                 continue
-            _HANDLERS[type(statement)](self, statement)
+            self.handlers[type(statement)](self, statement)
 
     def _line(self, s: ir.Line) -> None:
         self.location = self.location_of(s.line)
@@ -398,7 +405,7 @@ def attributes(function: ir.Function) -> str:
 
 
 _F = FunctionEmitter
-_HANDLERS: dict[type[ir.Stmt], Callable[[FunctionEmitter, Any], None]] = {
+FunctionEmitter.handlers = {
     ir.Line: _F._line,
     ir.Store: _F._store,
     ir.Copy: _F._copy,

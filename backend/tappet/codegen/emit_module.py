@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from tappet.codegen.debug_info import DebugInfo, Metadata
@@ -74,11 +74,12 @@ def emit_module(
     whole: bool,
     copies: Iterable[str] = (),
     used: set[str] | None = None,
+    emitter: Callable[[ModuleState, ir.Function], FunctionEmitter] = FunctionEmitter,
 ) -> str:
     """LLVM text of the functions `names`; `whole` says that they are all there are.
 
     `copies` are functions of other modules that may be inlined here. `used` gets the symbols of the data and
-    constants that the text refers to.
+    constants that the text refers to. `emitter` makes what emits each function.
     """
     metadata = Metadata()
     metadata.add('!{!"branch_weights", i32 1, i32 1048575}')
@@ -91,14 +92,15 @@ def emit_module(
     for name in names:
         function = module.functions[name]
         linkage = "" if function.exported else ("internal " if whole else "hidden ")
-        body += FunctionEmitter(state, function).text(linkage)
+        body += emitter(state, function).text(linkage)
     for name in copies:
         function = module.functions[name]
         linkage = "available_externally " + ("" if function.exported else "hidden ")
-        body += FunctionEmitter(state, function).text(linkage)
+        body += emitter(state, function).text(linkage)
     tables = _dispatch(module, state, whole, bool(own & _dispatch_home(module)))
     head = [f'target triple = "{options.triple}"']
-    head += _globals(module, state, f", !absolute_symbol !{absolute}" if options.absolute_data else "")
+    suffix = f", !absolute_symbol !{absolute}" if options.absolute_data else ""
+    head += _globals(module, state, suffix)
     head += tables
     # the executive defines what other code only calls
     head += [_RUNTIME[name] for name in sorted((state.used & _RUNTIME.keys()) - own)]
@@ -136,6 +138,8 @@ def _globals(module: ir.Module, state: ModuleState, suffix: str) -> list[str]:
                 f"{symbol(name)} = private unnamed_addr constant [{len(const.data)} x i8] "
                 f'c"{quoted(const.data)}", align {const.align}'
             )
+    for name, count in sorted(state.sites.items()):
+        lines.append(f"{symbol(name)} = external global [{max(count, 1)} x i8], {model}align 1{suffix}")
     return lines
 
 

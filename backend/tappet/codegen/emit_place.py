@@ -34,6 +34,8 @@ class ModuleState:
     """Names of the functions that the text refers to."""
     intrinsics: set[str] = field(default_factory=set)
     """Declarations of LLVM intrinsics in use."""
+    sites: dict[str, int] = field(default_factory=dict)
+    """Symbols of the flags of statements, with how many there are; in the instrumented variant only."""
 
 
 @dataclass(slots=True)

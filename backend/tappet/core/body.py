@@ -94,6 +94,13 @@ class Body:
         self.last_line = node.span[0] + 1
         self.out.append(ir.Line(self.last_line))
 
+    def statement(self, node: ast.Node) -> None:
+        """As `line`, of a statement of the body."""
+        self.function.weight += 1
+        span = node.span
+        self.last_line = span[0] + 1
+        self.out.append(ir.Line(self.last_line, span[1], True, span[2] + 1))
+
     # -- expressions ---------------------------------------------------------------------------------
 
     def value(self, e: ast.Expr) -> ir.Expr:

@@ -344,6 +344,7 @@ def lower_pou(program: Program, pou: PouSymbol) -> None:
     function.body = [*copies, *b.entry, *b.out]
     program.module.functions[function.name] = function
     program.bodies[function.name] = pou
+    program.places[function.name] = b.places
 
 
 def unchecked(pou: PouSymbol) -> bool:

@@ -45,6 +45,8 @@ class Program:
     taken: set[str] = field(default_factory=set)
     bodies: dict[str, PouSymbol] = field(default_factory=dict)
     """Linkage name to what is lowered under it, without initialisers and task entries."""
+    places: dict[str, dict[int, ir.Place]] = field(default_factory=dict)
+    """Where the variables of each of these bodies are, by id(VarSymbol): locals, parameters, the result."""
     slots: dict[str, int] = field(default_factory=dict)
     """Places of virtual methods in the method tables, by upper-case name."""
     queue: list[Callable[[], None]] = field(default_factory=list)

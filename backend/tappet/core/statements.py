@@ -22,7 +22,7 @@ def lower_statements(b: Body, statements: Sequence[ast.Stmt]) -> None:
             b.function.labels += 1
         handler = _STATEMENTS.get(statement.__class__)
         if handler is not None:
-            b.line(statement)
+            b.statement(statement)
             handler(b, statement)
 
 

@@ -32,6 +32,19 @@ class ApplicationAccess:
         self._lock = threading.RLock()
         self._load_history = monitoring.LoadHistory()
 
+    @property
+    def lock(self) -> threading.RLock:
+        """What serialises the calls."""
+        return self._lock
+
+    def loaded(self) -> LoadedApplication:
+        """The application; NoApplicationError when there is none."""
+        return self._need()
+
+    def announce(self, kind: str) -> None:
+        """Tell listeners of a change."""
+        self._notify(kind)
+
     def _need(self) -> LoadedApplication:
         if self.application is None:
             raise NoApplicationError

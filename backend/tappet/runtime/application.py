@@ -8,10 +8,9 @@ from pathlib import Path
 
 from tappet.codegen.constants import constants_within
 from tappet.codegen.package import EXIT_SYMBOL, INIT_SYMBOL, CodePackage
-from tappet.runtime.axis_programs import brake_of
+from tappet.runtime.application_code import ApplicationCode
 from tappet.runtime.contexts import FAULTED, RUNNING, STUCK_LIMIT_S, Contexts, IoBuffers, queue_slot
-from tappet.runtime.described_types import SERVICE, DescribedTypes
-from tappet.runtime.executive.loader import FILE_SERVICES, Executive
+from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Block
 from tappet.runtime.faults import RawFault
 from tappet.runtime.files import ApplicationFiles
@@ -19,8 +18,8 @@ from tappet.runtime.flight import FlightRecorder, FlightSettings
 from tappet.runtime.forces import Force, ForceTable, PlacedValue, ValueList
 from tappet.runtime.heap import ApplicationHeap
 from tappet.runtime.image import Image
-from tappet.runtime.link import LinkedCode, LinkError
-from tappet.runtime.places import Place
+from tappet.runtime.logbook import Logbook
+from tappet.runtime.places import Place, path_at
 from tappet.runtime.program_log import ProgramLog
 from tappet.runtime.retain import (
     LIVE,
@@ -41,7 +40,7 @@ QUEUE_LENGTH = 256
 _READ_TRIES = 50
 
 
-class LoadedApplication:
+class LoadedApplication(ApplicationCode):
     """A code package in memory. Its owner serialises the calls; the tasks run beside them."""
 
     def __init__(
@@ -86,6 +85,7 @@ class LoadedApplication:
         self.retain_file: RetainFile | None = None
         self._rarely_kept: list[tuple[int, int]] = []
         """Remanent bytes of tasks that may not run for long, from and to."""
+        self.variant = None
         self.buffers = IoBuffers(Block(self.area("I")[1]), Block(self.area("Q")[1]), Block(8))
         self._batches: list[list[tuple[int, ValueList]]] = [[] for _ in package.tasks]
         self.connect_code(self.code)
@@ -131,54 +131,11 @@ class LoadedApplication:
         place = self.package.data_objects.get(f"tappet.area.{name}")
         return (place.offset, place.size) if place else (0, 0)
 
-    def link(self, package: CodePackage) -> LinkedCode:
-        """Link a package against this image; LinkError names what is missing."""
-        base = self.image.address
-        imports = dict(self.executive.services)
-        imports |= {symbol: base + place.offset for symbol, place in package.data_objects.items()}
-        wanted = {INIT_SYMBOL, *(t.symbol for t in package.tasks), *package.exports}
-        code = self.executive.linker.link(package.objects, sorted(wanted), imports)
-        try:
-            self.heap.serve(code)
-        except OSError as error:
-            code.close()
-            raise LinkError(f"there is no memory for __NEW: {error}") from error
-        return code
-
-    def connect_code(self, code: LinkedCode) -> None:
-        """From its next cycle on every task runs `code`."""
-        self.code = code
-        self.heap.new_code()
-        self.heap.poison(self.package.facts.heap_poison)
-        self.connect_files()
-        self.connect_types()
-        for spec, task in zip(self.package.tasks, self.contexts.tasks, strict=True):
-            self.executive.store(task.place("pCode"), code[spec.symbol])
-            brake = brake_of(self.package, spec.name)
-            if brake is not None:
-                self.executive.store(task.place("pStood"), self.image.address + brake.stood)
-            self.executive.store(task.place("pBrake"), code[brake.symbol] if brake is not None else 0)
-
     def count_change(self) -> None:
         """What programs are told of the package that the application has become by an online change."""
         context = self.contexts.application
         context["onlineChanges"] = context["onlineChanges"] + 1
         self.contexts.identify(self.package)
-
-    def connect_files(self) -> None:
-        """Open the folder of files and start the thread that serves requests, once code needs them."""
-        if self.files.opened or self.code.imported.isdisjoint(FILE_SERVICES):
-            return
-        self.files.open()
-        if not self.virtual:
-            self.tasks.launch_files(self.files.wake)
-
-    def connect_types(self) -> None:
-        """Describe types and variables to code that asks for them."""
-        if SERVICE not in self.code.imported:
-            return
-        described = DescribedTypes(self.executive, self.package.symbols, self.image.address)
-        self.tasks.publish(self.contexts.application.place("pTypes"), described.address, described)
 
     def connect_io(self) -> None:
         """The bus cycle task moves both areas between the image and the drivers' buffers."""
@@ -347,7 +304,9 @@ class LoadedApplication:
         tickets = []
         for task, batch in by_task.items():
             values_list = ValueList(self.executive.layouts, self.image.address, batch)
-            if task is None or self.virtual:
+            if self.halted:
+                self.executive.apply_values(values_list.address)
+            elif task is None or self.virtual:
                 with self.tasks.standing():
                     self.executive.apply_values(values_list.address)
                     self._keep()
@@ -448,8 +407,16 @@ class LoadedApplication:
             return
         values = ValueList(self.executive.layouts, self.image.address, self.forces.values)
         self.tasks.publish(cell, values.address, values)
-        if not self.contexts.tasks:
+        if not self.contexts.tasks or self.halted:
             self.executive.apply_values(values.address)
+
+    def log_failed_monitoring(self, log: Logbook) -> None:
+        """Note the watched properties whose Get has ended in an exception; the application runs on."""
+        self.sampled.ask_for_watched()
+        for offset, size in self.watched.failed():
+            name = path_at(self.package.symbols, Place(offset, size)) or f"offset {offset}"
+            text = f"monitoring '{name}' ended in an exception of its Get, which is called no more"
+            log.add("warning", "monitoring", text)
 
     @property
     def calls_watched(self) -> bool:
@@ -466,6 +433,8 @@ class LoadedApplication:
         self.files.close()
         self.log.close()
         self.close_retain_file()
+        if self.variant is not None:
+            self.variant.close()
         self.code.close()
         self.tasks.close()
         self.heap.close()

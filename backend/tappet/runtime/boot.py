@@ -38,14 +38,17 @@ def storing_boot(folder: Path | None, package: bytes, log: Logbook) -> Iterator[
         yield
 
 
-def create_boot(folder: Path, package: bytes) -> None:
+def create_boot(folder: Path | None, package: CodePackage, log: Logbook) -> None:
     """Makes `package` the boot application. Raises DiskFullError, BootError."""
+    if folder is None:
+        raise BootError("this runtime has no data folder, so it starts without an application")
     try:
-        replace_file(folder / FILE, package, mode=PRIVATE, to_disk=True)
+        replace_file(folder / FILE, package.to_bytes(), mode=PRIVATE, to_disk=True)
     except OSError as error:
         if is_disk_full(error):
             raise DiskFullError("there is no room for the boot application") from error
         raise BootError(f"the boot application could not be stored: {error}") from error
+    log.add("info", "boot", f"{package.application} is the boot application")
 
 
 def load_boot(folder: Path) -> CodePackage | None:

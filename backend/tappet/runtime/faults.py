@@ -84,14 +84,14 @@ def describe(raw: RawFault) -> tuple[str, dict[str, str]]:
 class Locator:
     """Finds POU and line of program counters in linked code. Reads debug information only when asked."""
 
-    def __init__(self, code: LinkedCode) -> None:
-        self._code = code
-        self._symbols: dict[int, list[ObjectSymbol]] = {}
+    def __init__(self, *codes: LinkedCode) -> None:
+        self._codes = codes
+        self._symbols: dict[tuple[int, int], list[ObjectSymbol]] = {}
 
     def call_stack(self, raw: RawFault) -> list[CallFrame]:
         """Frames of a fault, innermost first, without those of the runtime and the C library."""
         addresses = [raw.pc - 1 if raw.pc_is_return else raw.pc, *(f - 1 for f in raw.frames)]
-        if not raw.pc_is_return and self._code.section_of(raw.pc) is None and raw.stack_top:
+        if not raw.pc_is_return and self._found(raw.pc) is None and raw.stack_top:
             addresses.insert(
                 0, raw.stack_top - 1
             )  # a leaf of the C library: its caller is on top of the stack
@@ -102,20 +102,28 @@ class Locator:
 
     def frames_at(self, address: int) -> list[CallFrame]:
         """The function at `address`, after those the compiler merged into it; empty for foreign code."""
-        section = self._code.section_of(address)
-        if section is None:
+        place = self._found(address)
+        if place is None:
             return []
-        function = self._function(section, address)
+        code, section = place
+        function = self._function(code, section, address)
         from tappet.runtime.debug_lines import frames_at  # the reader of ELF files: needed after a fault only
 
-        found = frames_at(self._code.objects[section.object_index], section, address, function)
+        found = frames_at(code.objects[section.object_index], section, address, function)
         return [CallFrame(*frame) for frame in found]
 
-    def _function(self, section: CodeSection, address: int) -> str:
-        symbols = self._symbols.get(section.object_index)
+    def _found(self, address: int) -> tuple[LinkedCode, CodeSection] | None:
+        for code in self._codes:
+            section = code.section_of(address)
+            if section is not None:
+                return code, section
+        return None
+
+    def _function(self, code: LinkedCode, section: CodeSection, address: int) -> str:
+        key = id(code), section.object_index
+        symbols = self._symbols.get(key)
         if symbols is None:
-            symbols = read_symbols(self._code.objects[section.object_index])[0]
-            self._symbols[section.object_index] = symbols
+            symbols = self._symbols[key] = read_symbols(code.objects[section.object_index])[0]
         at = address - section.base
         for s in symbols:
             if s.function and s.section == section.section and s.value <= at < s.value + max(s.size, 1):

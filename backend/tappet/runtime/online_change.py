@@ -82,11 +82,15 @@ def apply_change(
         and ONLINE_CHANGE_SYMBOL not in package.exports
     )
     old_code = application.code
+    if application.halted:
+        with application.tasks.standing():
+            pass
     if only_code:
         _end_traces(application, log)
         application.package = package
         application.count_change()
         application.connect_code(code)
+        application.drop_variant()
         application.tasks.retire(old_code, old_code.close)
         return ChangeResult(None)
     with application.tasks.standing():
@@ -101,6 +105,7 @@ def apply_change(
         application.package = package
         application.count_change()
         application.connect_code(code)
+        application.drop_variant()
         lost = _relocate(application, running, package)
         application.watched.load(package)
         problem = ""

@@ -26,6 +26,7 @@ from tappet.runtime.boot import (
 )
 from tappet.runtime.contexts import FAULTED, RUNNING, STOPPED, STUCK_LIMIT_S
 from tappet.runtime.crash import Crash, RunningMark
+from tappet.runtime.debugger.debugger import Debugger
 from tappet.runtime.errors import DiskFullError, PlcError
 from tappet.runtime.exception_report import ExceptionReport, summary
 from tappet.runtime.executive.loader import Executive
@@ -35,7 +36,6 @@ from tappet.runtime.image import ImageError
 from tappet.runtime.link import LinkError
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.online_change import OnlineChangeError, apply_change
-from tappet.runtime.places import Place, path_at
 from tappet.runtime.reports import build_report
 from tappet.runtime.retain import Kept, load_retain, matching, persistent_of, remove_retain
 from tappet.runtime.retain_groups import check_room
@@ -75,6 +75,7 @@ class SoftPlc(ApplicationAccess):
         self.on_event: Callable[[Event], None] | None = None
         self._report: ExceptionReport | None = None
         self._seen_state: State = "empty"
+        self.debugger = Debugger(self)
         self._mark = RunningMark(self.executive, folder, self.log)
         self._crash: Crash | None = None
         """Why the application waits to be started by somebody."""
@@ -109,6 +110,8 @@ class SoftPlc(ApplicationAccess):
                 package.data_id if package else None,
                 self._notes(),
                 cycle,
+                self.debugger.halted_tasks(),
+                self.debugger.sequence,
             )
 
     def _notes(self) -> tuple[str, ...]:
@@ -128,7 +131,8 @@ class SoftPlc(ApplicationAccess):
             if self.application is not None:
                 self.application.tasks.collect()
                 self.application.log.collect(self.log)
-                self._log_failed(self.application)
+                self.application.log_failed_monitoring(self.log)
+            self.debugger.poll()
             state = self.state
             if state == "run":
                 self._mark.look()
@@ -139,14 +143,6 @@ class SoftPlc(ApplicationAccess):
                 entered = state == "exception"
                 self._seen_state = state
                 self._notify("exception" if entered else "state")
-
-    def _log_failed(self, application: LoadedApplication) -> None:
-        """Note the watched properties whose Get has ended in an exception; the application runs on."""
-        application.sampled.ask_for_watched()
-        for offset, size in application.watched.failed():
-            name = path_at(application.package.symbols, Place(offset, size)) or f"offset {offset}"
-            text = f"monitoring '{name}' ended in an exception of its Get, which is called no more"
-            self.log.add("warning", "monitoring", text)
 
     def _notify(self, kind: str) -> None:
         self._seen_state = self.state
@@ -179,6 +175,9 @@ class SoftPlc(ApplicationAccess):
         """
         with self._lock:
             application = self._need()
+            if application.halted:
+                self.debugger.control("single_cycle")
+                return
             if application.tasks.state != STOPPED:
                 raise PlcError(
                     f"a single cycle needs a stopped application; this one is in state {self.state}"
@@ -190,7 +189,8 @@ class SoftPlc(ApplicationAccess):
                 application.tasks.single_cycle()
             except TaskError as error:
                 raise PlcError(str(error)) from error
-            self._save_retain()
+            if not application.halted:
+                self._save_retain()
             self.poll()
 
     def stop(self) -> None:
@@ -299,13 +299,10 @@ class SoftPlc(ApplicationAccess):
         """
         with self._lock:
             application = self._need()
-            if self.folder is None:
-                raise PlcError("this runtime has no data folder, so it starts without an application")
             try:
-                create_boot(self.folder, application.package.to_bytes())
+                create_boot(self.folder, application.package, self.log)
             except BootError as error:
                 raise PlcError(str(error)) from error
-            self.log.add("info", "boot", f"{application.package.application} is the boot application")
 
     def load(self, package: CodePackage) -> None:
         """Load a package that is at hand as an object, without storing it as boot application."""
@@ -355,6 +352,7 @@ class SoftPlc(ApplicationAccess):
             self._unload(old, leave=True)
         self.application = application
         self._report = None
+        self.debugger.dropped()
         fault = None
         if crash is None:
             self._begin(application, starts)
@@ -397,6 +395,7 @@ class SoftPlc(ApplicationAccess):
                 self.log.add("error", "application", f"ended by an exception: {summary(report)}")
         self.application = None
         self._report = None
+        self.debugger.dropped()
         application.close()
 
     def _change(self, package: CodePackage) -> None:
@@ -412,6 +411,7 @@ class SoftPlc(ApplicationAccess):
         took = (time.monotonic() - begun) * 1000
         how = "tasks paused" if result.paused else "code exchanged while running"
         self._mark.linked(application)
+        self.debugger.dropped()
         self.log.add("info", "application", f"{package.application} changed online in {took:.0f} ms, {how}")
         if result.retain_problem:
             self.log.add("error", "retain", f"remanent variables are not kept: {result.retain_problem}")

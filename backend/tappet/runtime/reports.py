@@ -42,7 +42,7 @@ def stack_of(application: LoadedApplication, raw: RawFault, log: Logbook) -> lis
     """Call stack of a fault in the present code of the application; empty when it is not readable."""
     try:
         maps = application.package.source_maps
-        return [_with_place(frame, maps) for frame in Locator(application.code).call_stack(raw)]
+        return [_with_place(frame, maps) for frame in Locator(*application.codes).call_stack(raw)]
     except Exception as error:  # whatever is wrong with the debug information, the exception is reported
         log.add("error", "runtime", f"call stack not readable: {type(error).__name__}: {error}")
         return []
@@ -72,7 +72,7 @@ def _heap_values(application: LoadedApplication, raw: RawFault, made: CallFrame 
 def _maker(application: LoadedApplication, origin: int) -> CallFrame | None:
     """Where the __NEW stands that returned to `origin`; None when that code is gone."""
     address = application.heap.maker(origin)
-    frames = Locator(application.code).frames_at(address - 1) if address else []
+    frames = Locator(*application.codes).frames_at(address - 1) if address else []
     return _with_place(frames[0], application.package.source_maps) if frames else None
 
 

@@ -40,6 +40,7 @@ def stop_axes(current: Callable[[], LoadedApplication | None], lock: RLock, log:
         if not standstill:
             return
         standstill.ask(True)
+        application.tasks.release(wanted=True)
     reached = _await(standstill, lambda: current() is application, lock)
     with lock:
         if current() is application:

@@ -23,11 +23,15 @@ class RuntimeInfo:
     """What has to be known about real-time behaviour on this host, one sentence each."""
     cycle_ns: int = 0
     """Interval of the bus cycle task."""
+    halted: tuple[str, ...] = ()
+    """Tasks that stand at a statement."""
+    debug_sequence: int = 0
+    """Grows with every change of the debugger's state."""
 
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """An event that clients get at once: kind `state`, `exception`, `application` or `forces`."""
+    """An event that clients get at once: kind `state`, `exception`, `application`, `forces` or `debug`."""
 
     kind: str
     state: State

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from tappet.codegen.package import TaskSpec
 from tappet.runtime.contexts import RUNNING, STOPPED, Contexts
 from tappet.runtime.executive.loader import Executive
+from tappet.runtime.executive.records import Record
 from tappet.runtime.faults import RawFault
 from tappet.runtime.posix import libc
 from tappet.runtime.tasks import KINDS
@@ -103,14 +104,29 @@ class TaskGroup:
 
     @contextmanager
     def standing(self) -> Iterator[None]:
-        """All tasks at a cycle boundary, for as long as the block runs."""
+        """All tasks at a cycle boundary, for as long as the block runs; halted ones complete their cycle."""
         cell = self.contexts.application.place("pause")
         self.executive.store_flag(cell, 1)
+        self.release(wanted=True)
         try:
             self._await_boundary()
             yield
         finally:
+            self.release(wanted=False)
             self.executive.store_flag(cell, 0)
+
+    def release(self, *, wanted: bool) -> None:
+        """Whether tasks pass all breakpoints, and halted ones go on."""
+        debug = self.contexts.application["pDebug"]
+        if debug:
+            context = Record(self.executive.layouts["DEBUG_CONTEXT"], debug)
+            self.executive.store_flag(context.place("released"), int(wanted))
+
+    @property
+    def halted(self) -> bool:
+        """Whether a task stands at a statement."""
+        layout = self.executive.layouts["DEBUG_TASK"]
+        return any(t["pDebug"] and Record(layout, t["pDebug"])["halted"] for t in self.contexts.tasks)
 
     def _await_boundary(self) -> None:
         due = time.monotonic() + BOUNDARY_TIMEOUT_S
@@ -158,6 +174,8 @@ class TaskGroup:
             self.executive.store_flag(task.place("singleCycle"), 1)
         due = time.monotonic() + BOUNDARY_TIMEOUT_S
         while self.state == STOPPED and time.monotonic() < due and any(t["singleCycle"] for t in waiting):
+            if self.halted:
+                return
             time.sleep(0.0005)
         with self.standing():
             pass

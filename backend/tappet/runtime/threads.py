@@ -26,17 +26,23 @@ SIGNAL_STACK_SIZE = 64 << 10
 
 
 class TaskStack:
-    """Stack of one native thread, guard pages below it, and the stack its signal handler runs on."""
+    """Stack of one native thread, guard pages below it, and the stack its signal handler runs on.
 
-    def __init__(self, size: int = STACK_SIZE) -> None:
-        self.mapping: Mapping = map_memory(GUARD_SIZE + size, low=True)
+    It begins at a multiple of its size: instrumented code finds its lowest word, where it keeps the innermost
+    frame, from any address in it.
+    """
+
+    def __init__(self) -> None:
+        self._room: Mapping = map_memory(GUARD_SIZE + 2 * STACK_SIZE, low=True)
+        low = -(-(self._room.address + GUARD_SIZE) // STACK_SIZE) * STACK_SIZE
+        self.mapping = Mapping(low - GUARD_SIZE, GUARD_SIZE + STACK_SIZE)
         self.mapping.protect(0, GUARD_SIZE, accessible=False)
         self.signal_stack: Mapping = map_memory(SIGNAL_STACK_SIZE)
 
     @property
     def low(self) -> bool:
         """Whether the stack lies below 4 GiB."""
-        return self.mapping.low
+        return self._room.low
 
     def describe(self, task: Record) -> None:
         """Set the bounds of the stack in a task context."""
@@ -48,7 +54,7 @@ class TaskStack:
 
     def close(self) -> None:
         """Release it; the thread must have ended."""
-        self.mapping.close()
+        self._room.close()
         self.signal_stack.close()
 
 

@@ -15,6 +15,10 @@ class Line(Stmt):
 
     line: int
     column: int = 0
+    statement: bool = False
+    """A statement of the body begins here: where the instrumented variant may halt."""
+    end_line: int = 0
+    """Last line of that statement."""
 
 
 @dataclass(eq=False, slots=True)

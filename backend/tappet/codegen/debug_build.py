@@ -1,0 +1,129 @@
+"""Makes the instrumented variant from what a build has generated, without lowering anything again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from tappet.codegen.compile_options import OptimiseOptions
+from tappet.codegen.compile_pool import Compilation
+from tappet.codegen.debug_code import DebugCode, DebugFunction, FrameVariable, StatementSite
+from tappet.codegen.emit_function import FunctionEmitter
+from tappet.codegen.emit_module import EmitOptions, emit_module
+from tappet.codegen.emit_place import ModuleState
+from tappet.codegen.generate import Generated
+from tappet.codegen.instrumented import FrameLayout, InstrumentedEmitter
+from tappet.codegen.object_cache import ObjectCache
+from tappet.codegen.symbols_build import TypeTable
+from tappet.core import ir
+from tappet.core.program import Program, path_of
+from tappet.lang.source import Scope
+from tappet.lang.symbols import PouSymbol, VarSymbol
+
+LEVEL = 1
+"""Optimisation of the variant: it is compiled while somebody waits."""
+
+
+def instrument(generated: Generated, cache: ObjectCache | None = None) -> DebugCode:
+    """The instrumented variant of an application that was just generated."""
+    program = generated.lowered.program
+    assert program is not None
+    work = _Instrumentation(program, _copied(generated.laid.table))
+    module, parts = generated.lowered.module, generated.parts
+    parallel = len(parts) > 2
+    compilation = Compilation(cache or ObjectCache(None), OptimiseOptions(level=LEVEL), parallel)
+    options = EmitOptions(triple=generated.package.triple)
+    for part in parts:
+        copies = [name for name in part.copies if not work.is_instrumented(name)]
+        compilation.add(
+            emit_module(module, part.names, options, len(parts) == 1, copies, emitter=work.emitter)
+        )
+    objects, functions = compilation.objects(), work.functions()
+    return DebugCode(generated.package.code_id, objects, functions, list(work.table.types))
+
+
+def _copied(table: TypeTable) -> TypeTable:
+    """A type table that gets the types of local variables; that of the package stays as it is."""
+    copy = TypeTable(table.areas, table.statics)
+    copy.types, copy.numbers = list(table.types), dict(table.numbers)
+    copy.described, copy.lists = dict(table.described), dict(table.lists)
+    return copy
+
+
+@dataclass(slots=True)
+class _Instrumentation:
+    """Which functions have hooks, and what came of them."""
+
+    program: Program
+    table: TypeTable
+    emitted: list[tuple[ir.Function, InstrumentedEmitter, tuple[FrameVariable, ...]]] = field(
+        default_factory=list
+    )
+
+    def is_instrumented(self, name: str) -> bool:
+        """Bodies of the application are; libraries run as they are."""
+        pou = self.program.bodies.get(name)
+        return pou is not None and pou.source is not None and pou.source.scope is not Scope.LIBRARY
+
+    def emitter(self, state: ModuleState, function: ir.Function) -> FunctionEmitter:
+        """What emits a function."""
+        if not self.is_instrumented(function.name):
+            return FunctionEmitter(state, function)
+        layout = FrameLayout()
+        variables = tuple(self._variables(function, layout))
+        emitter = InstrumentedEmitter(state, function, layout)
+        self.emitted.append((function, emitter, variables))
+        return emitter
+
+    def functions(self) -> list[DebugFunction]:
+        """All that have a place to halt, in the order in which they were emitted."""
+        return [self._function(function, emitter, found) for function, emitter, found in self.emitted]
+
+    def _function(
+        self, function: ir.Function, emitter: InstrumentedEmitter, variables: tuple[FrameVariable, ...]
+    ) -> DebugFunction:
+        pou = self.program.bodies[function.name]
+        owner = pou.owner if pou.owner is not None else pou
+        block = owner.instance if function.self_type else None
+        why_not = emitter.why_no_jumps()
+        sites: tuple[StatementSite, ...] = tuple(emitter.sites)
+        return DebugFunction(
+            function.name,
+            function.uri,
+            sites,
+            variables,
+            self.table.number(block) if block is not None else None,
+            path_of(owner).upper() if owner.kind == "PROGRAM" else "",
+            not why_not,
+            why_not,
+        )
+
+    def _variables(self, function: ir.Function, layout: FrameLayout) -> list[FrameVariable]:
+        places = self.program.places.get(function.name, {})
+        found = []
+        for variable in _declared(self.program.bodies[function.name]):
+            place = places.get(id(variable))
+            if place is None or variable.type is None or place.subscripts or place.offset:
+                continue
+            base, number = place.base, self.table.number(variable.type)
+            if isinstance(base, ir.Local) and base in function.aliases:
+                at = layout.pointer(function.aliases[base])
+                found.append(FrameVariable(variable.name, number, at, variable.section, True, False))
+            elif isinstance(base, ir.Local):
+                writable = not variable.is_constant
+                at = layout.place(base)
+                found.append(FrameVariable(variable.name, number, at, variable.section, False, writable))
+            elif isinstance(base, ir.Indirect) and isinstance(base.pointer, ir.Argument):
+                at = layout.pointer(base.pointer.number)
+                found.append(FrameVariable(variable.name, number, at, variable.section, True))
+        return found
+
+
+def _declared(pou: PouSymbol) -> list[VarSymbol]:
+    """Parameters, the result and what a body declares itself, in order."""
+    found = list(pou.parameters)
+    if pou.result is not None:
+        found.append(pou.result)
+    assert pou.pou is not None
+    for block in pou.pou.blocks:
+        found += [d.symbol for d in block.variables if isinstance(d.symbol, VarSymbol)]
+    return list({id(v): v for v in found}.values())

@@ -1,0 +1,438 @@
+"""The debugger of a soft PLC: what operations ask for, and what happens to it when the application changes.
+
+Contract: breakpoints and settings belong to the runtime and outlive applications; halts and the instrumented
+variant belong to the loaded one. Tasks run the variant while a breakpoint is enabled, a task is halted or a
+pause is asked for, else the normal code. All methods may be called from any thread.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Literal
+
+from tappet.codegen.debug_code import DebugCode
+from tappet.codegen.package import PackageError
+from tappet.codegen.values import Value
+from tappet.runtime.contexts import RUNNING, STOPPED
+from tappet.runtime.debugger import frames
+from tappet.runtime.debugger.breakpoints import MOST, BreakpointTable, Wanted
+from tappet.runtime.debugger.places import code_spot, line_of
+from tappet.runtime.debugger.shapes import (
+    Breakpoint,
+    BreakpointOrder,
+    DebugState,
+    Frame,
+    Halt,
+    Reason,
+    Settings,
+    Spot,
+    Stack,
+    Variable,
+    Variables,
+)
+from tappet.runtime.debugger.variant import Variant
+from tappet.runtime.errors import PlcError
+from tappet.runtime.link import LinkError
+
+if TYPE_CHECKING:
+    from tappet.runtime.plc import SoftPlc
+
+Command = Literal[
+    "continue", "pause", "step_into", "step_over", "step_out", "run_to", "next_statement", "single_cycle"
+]
+_REASONS: dict[int, Reason] = {1: "breakpoint", 2: "step", 3: "pause", 4: "data", 5: "run_to"}
+_RUN, _INTO, _FRAMES = 0, 1, 2
+STEP_PATIENCE_S = 0.25
+"""A step mostly ends at once: its answer then says where."""
+
+
+class DebugError(PlcError):
+    """The debugger cannot do this now; the message says why."""
+
+
+class UnknownBreakpointError(DebugError):
+    """There is no breakpoint with this id."""
+
+
+class Debugger:
+    """One per soft PLC, which serialises the calls by its lock."""
+
+    def __init__(self, plc: SoftPlc) -> None:
+        self._plc = plc
+        self._lock = plc.lock
+        self._settings = Settings()
+        self._wanted: dict[int, Wanted] = {}
+        self._last_id = 0
+        self._last_step = 0
+        self._sequence = 0
+        self._halts = 0
+        self._pausing = False
+
+    # -- state ---------------------------------------------------------------------------------------
+
+    @property
+    def variant(self) -> Variant | None:
+        """The instrumented variant of the loaded application, if there is one."""
+        application = self._plc.application
+        return application.variant if application is not None else None
+
+    @property
+    def sequence(self) -> int:
+        """Grows with every change of the state."""
+        return self._sequence
+
+    def halted_tasks(self) -> tuple[str, ...]:
+        """Names of the tasks that stand at a statement."""
+        variant = self.variant
+        if variant is None:
+            return ()
+        names = [task.name for task in variant.application.package.tasks]
+        return tuple(names[i] for i in variant.halted())
+
+    def state(self) -> DebugState:
+        """Breakpoints, settings and halts as of now."""
+        with self._lock:
+            self.poll()
+            variant = self.variant
+            halts = [] if variant is None else [self._halt(variant, i) for i in variant.halted()]
+            return DebugState(
+                available=variant is not None,
+                active=variant is not None and variant.active,
+                sequence=self._sequence,
+                settings=self._settings,
+                halted=[halt for halt in halts if halt is not None],
+                breakpoints=[w.shown(variant) for w in self._shown()],
+            )
+
+    def _shown(self) -> list[Wanted]:
+        return [wanted for wanted in self._wanted.values() if wanted.kind == "halt"]
+
+    def _halt(self, variant: Variant, task: int) -> Halt | None:
+        debug = variant.tasks[task]
+        stack = frames.stack_of_halted(variant, task)
+        if not stack.activations:
+            return None
+        here = stack.activations[0]
+        reason = _REASONS.get(debug["reason"], "pause")
+        hit = self._wanted.get(debug["breakpoint"]) if reason in ("breakpoint", "data") else None
+        message = None
+        if hit is not None and hit.order.kind == "data":
+            message = f"'{hit.order.expression}' has changed before this statement"
+        return Halt(
+            variant.application.package.tasks[task].name,
+            variant.application.contexts.tasks[task]["cycle"],
+            reason,
+            code_spot(variant.application.package.source_maps, here.function, here.site),
+            hit.id if hit is not None else None,
+            frames.FrameValues(variant, stack, here).instance(),
+            message,
+        )
+
+    def poll(self) -> None:
+        """Look for halts that came from the tasks, and tell listeners. The service of the PLC calls this."""
+        with self._lock:
+            variant = self.variant
+            halts = variant.context["halts"] if variant is not None else 0
+            if halts == self._halts:
+                return
+            self._halts = halts
+            if variant is not None and variant.any_halted:
+                for wanted in [w for w in self._wanted.values() if w.kind == "run_to"]:
+                    del self._wanted[wanted.id]
+            self._changed()
+
+    def _changed(self) -> None:
+        self._sequence += 1
+        self._direct()
+        self._plc.announce("debug")
+
+    # -- the instrumented variant --------------------------------------------------------------------
+
+    def load(self, data: bytes) -> DebugState:
+        """Link the variant of the loaded application. Raises PlcError when it is that of another one."""
+        try:
+            code = DebugCode.from_bytes(data)
+        except PackageError as error:
+            raise DebugError(f"the instrumented variant was refused: {error}") from error
+        with self._lock:
+            application = self._plc.loaded()
+            if code.code_id != application.package.code_id:
+                raise DebugError("the instrumented variant is that of another application")
+            if application.variant is None:
+                try:
+                    variant = application.variant = Variant(application, code)
+                except (LinkError, OSError) as error:
+                    raise DebugError(f"the instrumented variant was refused: {error}") from error
+                self._halts = 0
+                for wanted in self._wanted.values():
+                    wanted.place(variant)
+                self._changed()
+            return self.state()
+
+    def dropped(self) -> None:
+        """The application has become another one: nothing is placed any more."""
+        self._halts = 0
+        for wanted in list(self._wanted.values()):
+            wanted.sites, wanted.watched = [], None
+            wanted.reason = "the instrumented variant of the application is not loaded"
+            if wanted.kind == "run_to":
+                del self._wanted[wanted.id]
+        if self._sequence:  # somebody has debugged
+            self._sequence += 1
+            self._plc.announce("debug")
+
+    def _direct(self) -> None:
+        """Let tasks know the breakpoints, and run the code that is needed."""
+        variant = self.variant
+        if variant is None:
+            return
+        application = variant.application
+        table = BreakpointTable(variant, self._wanted.values())
+        application.tasks.publish(variant.context.place("pTable"), table.address, table)
+        variant.context["haltOthers"] = int(self._settings.other_tasks == "halt")
+        variant.context["safeOutputs"] = int(self._settings.outputs == "safe")
+        needed = any(w.active for w in self._wanted.values()) or variant.any_halted or self._pausing
+        variant.arm(table.sites, table.watches)
+        if needed and not variant.active:
+            variant.activate()
+        elif not needed and variant.active:
+            variant.deactivate()
+
+    # -- breakpoints and settings --------------------------------------------------------------------
+
+    def set_settings(self, settings: Settings) -> DebugState:
+        """What happens around halted tasks from their next halt on."""
+        with self._lock:
+            self._settings = settings
+            self._changed()
+            return self.state()
+
+    def add(self, order: BreakpointOrder) -> Breakpoint:
+        """A new breakpoint."""
+        with self._lock:
+            if len(self._wanted) >= MOST:
+                raise DebugError(f"there are {MOST} breakpoints already; remove some")
+            wanted = self._place(order, "halt")
+            self._changed()
+            return wanted.shown(self.variant)
+
+    def _place(self, order: BreakpointOrder, kind: str) -> Wanted:
+        if order.kind == "line" and order.place is None:
+            raise ValueError("a line breakpoint needs a place")
+        if order.kind == "data" and not order.expression:
+            raise ValueError("a data breakpoint needs the expression of a variable")
+        self._last_id += 1
+        wanted = self._wanted[self._last_id] = Wanted(self._last_id, order, kind)
+        variant = self.variant
+        if variant is not None:
+            wanted.place(variant)
+        return wanted
+
+    def change(self, number: int, order: BreakpointOrder) -> Breakpoint:
+        """Replace a breakpoint; its hits count from 0."""
+        with self._lock:
+            self._find(number)
+            wanted = self._wanted[number] = Wanted(number, order)
+            variant = self.variant
+            if variant is not None:
+                wanted.place(variant)
+            self._changed()
+            return wanted.shown(variant)
+
+    def remove(self, number: int | None) -> None:
+        """Remove a breakpoint; all with None."""
+        with self._lock:
+            if number is None:
+                self._wanted.clear()
+            else:
+                self._find(number)
+                del self._wanted[number]
+            self._changed()
+
+    def _find(self, number: int) -> Wanted:
+        found = self._wanted.get(number)
+        if found is None:
+            raise UnknownBreakpointError(f"there is no breakpoint {number}")
+        return found
+
+    # -- control -------------------------------------------------------------------------------------
+
+    def control(self, command: Command, task: str | None = None, spot: Spot | None = None) -> DebugState:
+        """Halt, go on or step. Raises DebugError when that is not possible now."""
+        if command in ("run_to", "next_statement") and spot is None:
+            raise ValueError(f"{command} needs a place")
+        stepping: int | None = None
+        with self._lock:
+            variant = self._need()
+            if command == "pause":
+                self._pause(variant, task)
+            elif command == "continue":
+                halted = variant.halted() if task is None else [self._one(variant, task)]
+                if not halted:
+                    raise DebugError("no task is halted")
+                self._go_on(variant, halted)
+            elif command == "single_cycle":
+                self._end_cycle(variant)
+            else:
+                stepping = self._one(variant, task)
+                self._step(variant, command, stepping, spot)
+        if stepping is not None:
+            self._await_halt(variant, stepping)
+        return self.state()
+
+    def _need(self) -> Variant:
+        self._plc.loaded()
+        variant = self.variant
+        if variant is None:
+            raise DebugError("the instrumented variant of the application is not loaded")
+        return variant
+
+    def _task(self, variant: Variant, name: str) -> int:
+        names = [task.name.upper() for task in variant.application.package.tasks]
+        if name.upper() not in names:
+            raise DebugError(f"the application has no task '{name}'")
+        return names.index(name.upper())
+
+    def _one(self, variant: Variant, name: str | None) -> int:
+        """The halted task that is meant."""
+        halted = variant.halted()
+        if name is not None:
+            task = self._task(variant, name)
+            if task not in halted:
+                raise DebugError(f"task '{name}' is not halted")
+            return task
+        if len(halted) != 1:
+            raise DebugError("several tasks are halted: name one" if halted else "no task is halted")
+        return halted[0]
+
+    def _pause(self, variant: Variant, task: str | None) -> None:
+        if variant.application.tasks.state != RUNNING:
+            raise DebugError("the application does not run")
+        tasks = range(len(variant.tasks)) if task is None else [self._task(variant, task)]
+        for i in tasks:
+            if not variant.tasks[i]["halted"]:
+                variant.executive.store_flag(variant.tasks[i].place("pause"), 1)
+        self._pausing = True
+        self._changed()
+
+    def _go_on(self, variant: Variant, tasks: list[int], mode: int = _RUN) -> None:
+        for i in tasks:
+            variant.tasks[i]["mode"] = mode
+        if mode == _RUN and len(tasks) == len(variant.halted()):
+            self._pausing = False
+            for task in variant.tasks:
+                task["pause"] = 0
+        self._direct()
+        for i in tasks:
+            variant.executive.store_flag(variant.tasks[i].place("resume"), 1)
+        self._await_gone(variant, tasks)
+
+    def _await_gone(self, variant: Variant, tasks: list[int]) -> None:
+        """Until the tasks have taken the order: one that halts again has halted anew."""
+        end = time.monotonic() + STEP_PATIENCE_S
+        while any(variant.tasks[i]["resume"] for i in tasks) and time.monotonic() < end:
+            time.sleep(0.0002)
+
+    def _end_cycle(self, variant: Variant) -> None:
+        halted = variant.halted()
+        if not halted:
+            raise DebugError("no task is halted; a stopped application runs a single cycle")
+        if variant.application.tasks.state == RUNNING:
+            variant.application.tasks.set_state(STOPPED)
+        self._go_on(variant, halted)
+        self._plc.announce("state")
+
+    def _step(self, variant: Variant, command: Command, task: int, spot: Spot | None) -> None:
+        mode = _RUN
+        if command == "run_to":
+            assert spot is not None
+            wanted = self._place(BreakpointOrder(place=spot), "run_to")
+            if wanted.reason is not None:
+                del self._wanted[wanted.id]
+                raise DebugError(wanted.reason)
+        elif command == "step_into":
+            mode = _INTO
+        elif command == "next_statement":
+            assert spot is not None
+            variant.tasks[task]["jump"] = 1 + self._target(variant, task, spot)
+            mode = _INTO
+        else:
+            mode = _FRAMES
+            self._last_step = self._last_step % 0x7FFF_FFFF + 1
+            stack = frames.stack_of_halted(variant, task)
+            for activation in stack.activations[1 if command == "step_out" else 0 :]:
+                frames.mark(variant, activation, self._last_step)
+            variant.tasks[task]["mark"] = self._last_step
+        self._go_on(variant, [task], mode)
+
+    def _target(self, variant: Variant, task: int, spot: Spot) -> int:
+        """The statement of the halted function that a place names."""
+        here = frames.stack_of_halted(variant, task).activations[0]
+        line = line_of(variant.application.package.source_maps, spot)
+        if isinstance(line, str):
+            raise DebugError(line)
+        first = variant.firsts[variant.functions.index(here.function)]
+        inside = range(first, first + len(here.function.sites))
+        found = [number - first for number in variant.sites_at(*line) if number in inside]
+        if not found:
+            raise DebugError(f"the place is not in '{here.function.name}', where the task is halted")
+        if not here.function.jumps:
+            raise DebugError(f"the next statement cannot be set: {here.function.why_not}")
+        loops = here.function.sites[found[0]].loops
+        if here.site.loops[: len(loops)] != loops:
+            raise DebugError("the next statement cannot be set inside a loop that the task is not in")
+        return found[0]
+
+    def _await_halt(self, variant: Variant, task: int) -> None:
+        end = time.monotonic() + STEP_PATIENCE_S
+        while time.monotonic() < end:
+            with self._lock:
+                if self.variant is not variant or task in variant.halted():
+                    return
+            time.sleep(0.001)
+
+    # -- stacks --------------------------------------------------------------------------------------
+
+    def stack(self, task: str) -> Stack:
+        """The call stack of a halted task, or of one that a fault in instrumented code has ended."""
+        with self._lock:
+            variant = self._need()
+            number, found = self._stack(variant, task)
+            maps = variant.application.package.source_maps
+            levels = [
+                Frame(
+                    index,
+                    code_spot(maps, activation.function, activation.site),
+                    frames.FrameValues(variant, found, activation).instance(),
+                )
+                for index, activation in enumerate(found.activations)
+            ]
+            name = variant.application.package.tasks[number].name
+            return Stack(name, variant.application.contexts.tasks[number]["cycle"], levels)
+
+    def _stack(self, variant: Variant, task: str) -> tuple[int, frames.TaskStack]:
+        number = self._task(variant, task)
+        if number in variant.halted():
+            return number, frames.stack_of_halted(variant, number)
+        if variant.application.contexts.faulted_task() == number:
+            found = frames.stack_of_fault(variant, number)
+            if found is not None:
+                return number, found
+        raise DebugError(f"task '{task}' is not halted")
+
+    def _frame(self, task: str, frame: int) -> frames.FrameValues:
+        variant = self._need()
+        _, stack = self._stack(variant, task)
+        if not 0 <= frame < len(stack.activations):
+            raise DebugError(f"the call stack of '{task}' has {len(stack.activations)} levels, from 0")
+        return frames.FrameValues(variant, stack, stack.activations[frame])
+
+    def variables(self, task: str, frame: int) -> Variables:
+        """The variables of a level of a call stack."""
+        with self._lock:
+            return Variables(self._frame(task, frame).all())
+
+    def write(self, task: str, frame: int, name: str, value: Value) -> Variable:
+        """Write a local variable of a halted task. ValueError for a wrong name or value."""
+        with self._lock:
+            return self._frame(task, frame).write(name, value)
