@@ -12,8 +12,7 @@ from tappet.codegen.debug_build import instrument
 from tappet.codegen.package import CodePackage
 from tappet.iec.task import Task
 from tappet.lang.source import Source
-from tappet.runtime.debugger.debugger import Command
-from tappet.runtime.debugger.shapes import Breakpoint, BreakpointOrder, DebugState, Hits, Spot
+from tappet.runtime.debugger.shapes import Breakpoint, BreakpointOrder, Command, DebugState, Hits, Spot
 from tappet.runtime.plc import SoftPlc
 
 URI = "PLC_PRG"

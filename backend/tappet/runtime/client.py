@@ -24,6 +24,8 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime import protocol
+from tappet.runtime.debugger.shapes import DebugState
+from tappet.runtime.operations.debugging import LoadVariant
 from tappet.runtime.operations.declaration import Reply, WireOperation
 from tappet.runtime.operations.download import CHUNK, BeginDownload, CommitDownload, DownloadChunk
 from tappet.runtime.operations.life_cycle import GetInfo, Hello
@@ -284,6 +286,14 @@ class RuntimeClient:
             for at in range(0, len(package), CHUNK):
                 await self.call(DownloadChunk(package[at : at + CHUNK]))
             return await self.call(CommitDownload(mode))
+
+    async def load_variant(self, variant: bytes) -> DebugState:
+        """Load the instrumented variant of the application. RuntimeRefused when it is not that."""
+        async with self._upload:
+            await self.call(BeginDownload(len(variant)))
+            for at in range(0, len(variant), CHUNK):
+                await self.call(DownloadChunk(variant[at : at + CHUNK]))
+            return await self.call(LoadVariant())
 
     async def store_source(
         self, archive: bytes, *, project: str, stored_by: str, code_id: str

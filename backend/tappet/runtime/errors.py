@@ -20,3 +20,11 @@ class NoApplicationError(PlcError):
 
 class NoTraceError(PlcError):
     """There is no trace, or no record of one, as it is asked for."""
+
+
+class DebugError(PlcError):
+    """The debugger cannot do this now; the message says why."""
+
+
+class UnknownBreakpointError(DebugError):
+    """There is no breakpoint with this id."""

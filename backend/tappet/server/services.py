@@ -23,6 +23,7 @@ from tappet.server.builds.packages import PackageStore
 from tappet.server.cams.calculator import CamCalculator
 from tappet.server.comparisons.service import Comparisons
 from tappet.server.database import Database
+from tappet.server.debug.service import DebugVariants
 from tappet.server.events.service import ProjectEvents
 from tappet.server.metrics.service import Metrics
 from tappet.server.online.quota import UserQuotas
@@ -57,6 +58,7 @@ class Services:
     runtimes: RuntimeRegistry
     commissioning: Commissioning
     cams: CamCalculator
+    debug: DebugVariants
     evaluator: MeasurementEvaluator = field(default_factory=MeasurementEvaluator)
     views: ViewRegistry = field(default_factory=ViewRegistry)
     ended_sessions: EndedSessions = field(default_factory=EndedSessions)
@@ -128,6 +130,7 @@ class Services:
             self._housekeeping.cancel()
         if self._analysis is not None:
             await self._analysis.close()
+        await self.debug.close()
         await self.views.close()
         await self.commissioning.builder.close()
         await self.cams.close()
@@ -163,6 +166,11 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
     packages, objects = settings.data_dir / "packages", settings.data_dir / "objects"
     for folder in (packages, *objects.glob("??")):
         remove_unfinished(folder)
+    commissioning = Commissioning(
+        store,
+        Builder(settings.build_workers, objects),
+        PackageStore(packages),
+    )
     services = Services(
         settings=settings,
         store=store,
@@ -172,12 +180,9 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
         one_time=one_time,
         login=Login(database, passwords, one_time),
         runtimes=RuntimeRegistry(connect, settings.reconnect_seconds),
-        commissioning=Commissioning(
-            store,
-            Builder(settings.build_workers, objects),
-            PackageStore(packages),
-        ),
+        commissioning=commissioning,
         cams=CamCalculator(objects),
+        debug=DebugVariants(commissioning),
     )
     services.audit_reserve.try_move(database)
     if database.read(accounts.count) == 0:

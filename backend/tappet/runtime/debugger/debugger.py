@@ -8,7 +8,7 @@ pause is asked for, else the normal code. All methods may be called from any thr
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from tappet.codegen.debug_code import DebugCode
 from tappet.codegen.package import PackageError
@@ -20,6 +20,7 @@ from tappet.runtime.debugger.places import code_spot, line_of
 from tappet.runtime.debugger.shapes import (
     Breakpoint,
     BreakpointOrder,
+    Command,
     DebugState,
     Frame,
     Halt,
@@ -31,27 +32,16 @@ from tappet.runtime.debugger.shapes import (
     Variables,
 )
 from tappet.runtime.debugger.variant import Variant
-from tappet.runtime.errors import PlcError
+from tappet.runtime.errors import DebugError, UnknownBreakpointError
 from tappet.runtime.link import LinkError
 
 if TYPE_CHECKING:
     from tappet.runtime.plc import SoftPlc
 
-Command = Literal[
-    "continue", "pause", "step_into", "step_over", "step_out", "run_to", "next_statement", "single_cycle"
-]
 _REASONS: dict[int, Reason] = {1: "breakpoint", 2: "step", 3: "pause", 4: "data", 5: "run_to"}
 _RUN, _INTO, _FRAMES = 0, 1, 2
 STEP_PATIENCE_S = 0.25
 """A step mostly ends at once: its answer then says where."""
-
-
-class DebugError(PlcError):
-    """The debugger cannot do this now; the message says why."""
-
-
-class UnknownBreakpointError(DebugError):
-    """There is no breakpoint with this id."""
 
 
 class Debugger:

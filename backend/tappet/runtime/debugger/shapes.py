@@ -10,6 +10,9 @@ Name = Annotated[str, Meta(max_length=1000)]
 LineNumber = Annotated[int, Meta(ge=1, le=1 << 30)]
 Reason = Literal["breakpoint", "step", "pause", "data", "run_to"]
 Outputs = Literal["keep", "safe"]
+Command = Literal[
+    "continue", "pause", "step_into", "step_over", "step_out", "run_to", "next_statement", "single_cycle"
+]
 Scope = Literal["local", "this"]
 OtherTasks = Literal["run", "halt"]
 

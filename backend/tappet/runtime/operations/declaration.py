@@ -84,6 +84,8 @@ class Rest:
     reply."""
     tag: str = "runtimes"
     """Chapter of the API document."""
+    variant: bool = False
+    """It needs the instrumented variant of the application: the server loads that before."""
     always: bool = False
     """It stops something: it is done even when the audit log takes no row, and recorded later."""
 

@@ -170,6 +170,25 @@ class Builder:
         faulty = any(diagnostic.severity is Severity.ERROR for diagnostic in report.diagnostics)
         return report.model_copy(update={"ok": not faulty})
 
+    async def variant(self, application: Application, code_id: str, package: bytes) -> bytes:
+        """The instrumented variant of an application whose package is known.
+
+        Raises the problems 409, when these texts give another one, and 500, when the compiler crashed.
+        """
+        order, _ = await asyncio.to_thread(self._order, application, (code_id, package), instrumented=True)
+        try:
+            outcome = await self._worker(order).ask(asdict(order))
+        except WorkerCrashedError as error:
+            raise _crashed(error) from error
+        variant: bytes | None = outcome["variant"]
+        if variant is None or outcome["code_id"] != code_id:
+            raise Problem(
+                409,
+                "no-debug-code",
+                f"The texts kept for '{application.name}' do not give the code that runs; download it again.",
+            )
+        return variant
+
     async def warm(self) -> None:
         """Starts the compiler processes before the first build asks for them."""
         await asyncio.gather(*(worker.warm() for worker in self._workers))
@@ -207,15 +226,19 @@ class Builder:
         previous: tuple[str, bytes] | None,
         *,
         check_only: bool = False,
+        instrumented: bool = False,
         fresh: bool = False,
     ) -> tuple[BuildOrder, str]:
         """The order, and a fingerprint of everything the outcome depends on.
 
-        A check has caches of its own: other coding rules would make the next build one of everything.
+        A check has caches of its own: other coding rules would make the next build one of everything. So has
+        what is debugged: its texts are those that run, not those that are edited.
         """
         key = f"{application.project_id}/{application.application_id}"
+        if check_only or instrumented:
+            key += "/check" if check_only else "/debug"
         order = BuildOrder(
-            key=f"{key}/check" if check_only else key,
+            key=key,
             application=application.name,
             project=application.project,
             sources=tuple(to_builtins(source) for source in application.sources),
@@ -227,6 +250,7 @@ class Builder:
             heap=asdict(application.heap),
             disabled_warnings=tuple(sorted(application.disabled_warnings)),
             check_only=check_only,
+            instrumented=instrumented,
             fresh=fresh,
         )
         return order, _fingerprint(order, previous[0] if previous else None)

@@ -34,5 +34,7 @@ class BuildOrder:
     """Make no package."""
     project: str = ""
     """Name of the project, for programs that ask."""
+    instrumented: bool = False
+    """Make the instrumented variant, too."""
     fresh: bool = False
     """Use nothing that earlier builds left: no trees, no objects."""

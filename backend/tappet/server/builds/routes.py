@@ -170,6 +170,7 @@ async def download(
     runtimes: RuntimesDep,
     store: StoreDep,
     language: LanguageDep,
+    services: ServicesDep,
 ) -> DownloadReport:
     """Build and load the application, by download (which stops) or online change (which does not)."""
     link = runtimes.get(body.runtime_id)
@@ -183,6 +184,7 @@ async def download(
     built = await commissioning.download(
         project_id, application_id, link, body.mode, body.start, begin, project
     )
+    services.debug.restore(link)
     source, problem = None, None
     if with_source:
         await act.begin_async(

@@ -110,6 +110,11 @@ class Compiler:
         self._partial = result.partial
         package = result.package
         packed = package.to_bytes() if package else None
+        variant = None
+        if order["instrumented"] and session.generated is not None:
+            from tappet.codegen.debug_build import instrument  # few builds need it
+
+            variant = instrument(session.generated, session.cache(options.cache)).to_bytes()
         if package is not None and packed is not None:
             self._built = packed, package
         change = package.online_change if package else None
@@ -117,6 +122,7 @@ class Compiler:
             change = structs.replace(change, base_code_id="", reasons=(change.refused,))
         return {
             "package": packed,
+            "variant": variant,
             "code_id": package.code_id if package else None,
             "data_id": package.data_id if package else None,
             "change_base": (change.base_code_id or None) if change else None,

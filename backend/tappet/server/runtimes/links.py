@@ -156,6 +156,8 @@ class RuntimeLink:
             exception=exception_of(self.exception),
             scheduling="; ".join(info.scheduling) or None if info else None,
             problem=self.problem,
+            halted=info.halted if info else (),
+            debug_sequence=info.debug_sequence if info else 0,
         )
 
     # -- keeping the connection ----------------------------------------------------------------------

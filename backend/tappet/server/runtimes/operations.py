@@ -21,7 +21,7 @@ from tappet.server.audit import Act
 from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.identity import Identity
 from tappet.server.auth.roles import Role
-from tappet.server.dependencies import RequireRole, link_of
+from tappet.server.dependencies import RequireRole, link_of, services_of
 from tappet.server.problems import Problem, invalid_request
 from tappet.server.routing import Router
 from tappet.server.runtimes.links import RuntimeLink
@@ -104,6 +104,8 @@ def _endpoint(kind: type[WireOperation[Any]], rest: Rest) -> Callable[..., Await
         link: RuntimeLink = Depends(link_of),  # noqa: B008 - how FastAPI declares dependencies
     ) -> Any:
         operation = await _read(request, kind, rest)
+        if rest.variant:
+            await (await services_of(request)).debug.prepare(link)
         async with link.client() as client:
             if facts is not None and isinstance(who, ActRecord):
                 fact = facts(operation)

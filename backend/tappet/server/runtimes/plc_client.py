@@ -7,6 +7,7 @@ from typing import Literal, Protocol
 
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.client import RuntimeEvent
+from tappet.runtime.debugger.shapes import DebugState
 from tappet.runtime.operations.declaration import Reply, WireOperation
 from tappet.runtime.recorder import Frame
 from tappet.runtime.source_archive import SourceInfo
@@ -36,6 +37,9 @@ class PlcClient(Protocol):
 
     async def download(self, package: bytes, mode: LoadMode) -> RuntimeInfo:
         """Loads a code package."""
+
+    async def load_variant(self, variant: bytes) -> DebugState:
+        """Loads the instrumented variant of the application."""
 
     async def store_source(
         self, archive: bytes, *, project: str, stored_by: str, code_id: str

@@ -42,6 +42,8 @@ class RuntimeState(Reply):
     exception: RuntimeException | None
     scheduling: str | None = Field(description="Real-time class the runtime got, and what it misses.")
     problem: str | None = Field(default=None, description="Why there is no connection.")
+    halted: tuple[str, ...] = Field(default=(), description="Tasks that stand at a statement.")
+    debug_sequence: int = Field(default=0, description="Grows with every change of the debugger's state.")
 
 
 class Symbol(Reply):

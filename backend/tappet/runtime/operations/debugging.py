@@ -1,0 +1,233 @@
+"""The debugger: breakpoints, halting, steps, call stacks and their variables."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import msgspec
+from msgspec import Meta
+
+from tappet.runtime.debugger.shapes import (
+    Breakpoint,
+    BreakpointOrder,
+    Command,
+    DebugState,
+    Settings,
+    Spot,
+    Stack,
+    Variable,
+    Variables,
+)
+from tappet.runtime.errors import UnknownBreakpointError
+from tappet.runtime.operations.declaration import (
+    Fact,
+    Operation,
+    OperationError,
+    Rest,
+    Session,
+    SessionOperation,
+    Text,
+)
+from tappet.runtime.operations.download import Upload
+
+if TYPE_CHECKING:
+    from tappet.runtime.plc import SoftPlc
+
+TAG = "debugger"
+FrameNumber = Annotated[int, Meta(ge=0, le=1000, description="0 is the innermost level.")]
+
+
+def _written(value: Any) -> str:
+    return msgspec.json.encode(value).decode()[:1000]
+
+
+class GetDebugState(Operation[DebugState], frozen=True):
+    """Breakpoints, settings, and where tasks are halted."""
+
+    op: ClassVar[str] = "debug_state"
+    rest: ClassVar[Rest | None] = Rest("GET", "/debug", "viewer", None, tag=TAG)
+
+    def run(self, plc: SoftPlc) -> DebugState:
+        """As of now."""
+        return plc.debugger.state()
+
+
+class LoadVariant(SessionOperation[DebugState], frozen=True):
+    """Links the instrumented variant that was sent like a package, beside the application that it is of."""
+
+    op: ClassVar[str] = "debug_load"
+
+    async def serve(self, session: Session) -> DebugState:
+        """Off the event loop: linking takes its time."""
+        upload = session.own(Upload)
+        data, upload.data = upload.data, None
+        if data is None or len(data) != upload.size:
+            got = 0 if data is None else len(data)
+            raise OperationError("bad_request", f"debug_load: {got} of {upload.size} bytes arrived")
+        return await asyncio.to_thread(session.plc.debugger.load, bytes(data))
+
+
+class SetDebugSettings(Operation[DebugState], frozen=True):
+    """What happens to outputs and to other tasks while a task is halted."""
+
+    op: ClassVar[str] = "debug_settings"
+    rest: ClassVar[Rest | None] = Rest(
+        "PUT",
+        "/debug/settings",
+        "engineer",
+        lambda order: Fact("debug-settings", new_value=_written(order.settings)),
+        tag=TAG,
+    )
+    settings: Settings
+
+    def run(self, plc: SoftPlc) -> DebugState:
+        """From the next halt on."""
+        return plc.debugger.set_settings(self.settings)
+
+
+class AddBreakpoint(Operation[Breakpoint], frozen=True):
+    """Set a breakpoint at a line or element, or on the value of a variable."""
+
+    op: ClassVar[str] = "debug_add_breakpoint"
+    rest: ClassVar[Rest | None] = Rest(
+        "POST",
+        "/debug/breakpoints",
+        "engineer",
+        lambda order: Fact("breakpoint-added", new_value=_written(order.breakpoint)),
+        tag=TAG,
+        variant=True,
+    )
+    breakpoint: BreakpointOrder
+
+    def run(self, plc: SoftPlc) -> Breakpoint:
+        """Holds from the next cycle on."""
+        return plc.debugger.add(self.breakpoint)
+
+
+class ChangeBreakpoint(Operation[Breakpoint], frozen=True):
+    """Replace a breakpoint, for instance to disable it; its hits count from 0."""
+
+    op: ClassVar[str] = "debug_change_breakpoint"
+    rest: ClassVar[Rest | None] = Rest(
+        "PUT",
+        "/debug/breakpoints/{id}",
+        "engineer",
+        lambda order: Fact("breakpoint-changed", new_value=_written(order.breakpoint)),
+        tag=TAG,
+        variant=True,
+    )
+    id: int
+    breakpoint: BreakpointOrder
+
+    def run(self, plc: SoftPlc) -> Breakpoint:
+        """Not found when there is none with this id."""
+        try:
+            return plc.debugger.change(self.id, self.breakpoint)
+        except UnknownBreakpointError as error:
+            raise OperationError("not_found", str(error)) from error
+
+
+class RemoveBreakpoint(Operation[None], frozen=True):
+    """Remove a breakpoint."""
+
+    op: ClassVar[str] = "debug_remove_breakpoint"
+    rest: ClassVar[Rest | None] = Rest(
+        "DELETE",
+        "/debug/breakpoints/{id}",
+        "engineer",
+        lambda order: Fact("breakpoint-removed", new_value=str(order.id)),
+        tag=TAG,
+    )
+    id: int
+
+    def run(self, plc: SoftPlc) -> None:
+        """Not found when there is none with this id."""
+        try:
+            plc.debugger.remove(self.id)
+        except UnknownBreakpointError as error:
+            raise OperationError("not_found", str(error)) from error
+
+
+class RemoveBreakpoints(Operation[None], frozen=True):
+    """Remove all breakpoints."""
+
+    op: ClassVar[str] = "debug_remove_breakpoints"
+    rest: ClassVar[Rest | None] = Rest(
+        "DELETE", "/debug/breakpoints", "engineer", lambda _: Fact("breakpoints-removed"), tag=TAG
+    )
+
+    def run(self, plc: SoftPlc) -> None:
+        """Halted tasks stay halted."""
+        plc.debugger.remove(None)
+
+
+class ControlDebugger(Operation[DebugState], frozen=True):
+    """Halt, go on, or step: `continue` and `pause` mean all tasks where none is named.
+
+    `run_to` and `next_statement` need a place. `single_cycle` runs a halted application to the end of its
+    cycle and stops it there.
+    """
+
+    op: ClassVar[str] = "debug_control"
+    rest: ClassVar[Rest | None] = Rest(
+        "POST",
+        "/debug/control",
+        "engineer",
+        lambda order: Fact(f"debug-{order.command.replace('_', '-')}", new_value=order.task),
+        tag=TAG,
+        variant=True,
+    )
+    command: Command
+    task: Text | None = None
+    place: Spot | None = None
+
+    def run(self, plc: SoftPlc) -> DebugState:
+        """Answers where a step has ended, if it has at once."""
+        return plc.debugger.control(self.command, self.task, self.place)
+
+
+class GetStack(Operation[Stack], frozen=True):
+    """The call stack of a halted task, or of one that an exception in instrumented code has ended."""
+
+    op: ClassVar[str] = "debug_stack"
+    rest: ClassVar[Rest | None] = Rest("GET", "/debug/stack", "viewer", None, tag=TAG)
+    task: Text
+
+    def run(self, plc: SoftPlc) -> Stack:
+        """The innermost level first."""
+        return plc.debugger.stack(self.task)
+
+
+class GetVariables(Operation[Variables], frozen=True):
+    """The variables of a level of a call stack: its own, and those of the instance or program."""
+
+    op: ClassVar[str] = "debug_variables"
+    rest: ClassVar[Rest | None] = Rest("GET", "/debug/stack/{frame}/variables", "viewer", None, tag=TAG)
+    frame: FrameNumber
+    task: Text
+
+    def run(self, plc: SoftPlc) -> Variables:
+        """With their present values."""
+        return plc.debugger.variables(self.task, self.frame)
+
+
+class WriteVariable(Operation[Variable], frozen=True):
+    """Write a local variable of a level of a call stack; others are written by their path."""
+
+    op: ClassVar[str] = "debug_write"
+    rest: ClassVar[Rest | None] = Rest(
+        "POST",
+        "/debug/stack/{frame}/write",
+        "engineer",
+        lambda order: Fact("write", f"{order.task}: {order.name}", _written(order.value)),
+        tag=TAG,
+    )
+    frame: FrameNumber
+    task: Text
+    name: Text
+    value: Annotated[Any, Meta(description="A JSON value or an IEC literal.")]
+
+    def run(self, plc: SoftPlc) -> Variable:
+        """At once."""
+        return plc.debugger.write(self.task, self.frame, self.name, self.value)
