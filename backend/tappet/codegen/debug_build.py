@@ -84,7 +84,6 @@ class _Instrumentation:
         pou = self.program.bodies[function.name]
         owner = pou.owner if pou.owner is not None else pou
         block = owner.instance if function.self_type else None
-        why_not = emitter.why_no_jumps()
         sites: tuple[StatementSite, ...] = tuple(emitter.sites)
         return DebugFunction(
             function.name,
@@ -93,8 +92,7 @@ class _Instrumentation:
             variables,
             self.table.number(block) if block is not None else None,
             path_of(owner).upper() if owner.kind == "PROGRAM" else "",
-            not why_not,
-            why_not,
+            emitter.fixed_order(),
         )
 
     def _variables(self, function: ir.Function, layout: FrameLayout) -> list[FrameVariable]:

@@ -66,10 +66,8 @@ class DebugFunction(Struct, frozen=True):
     """Type of the own instance."""
     program: str = ""
     """The program that it is a part of, as the symbol map names it in upper case; empty for other bodies."""
-    jumps: bool = True
-    """Whether the next statement can be set in it."""
-    why_not: str = ""
-    """Why it cannot."""
+    fixed_order: Literal["", "try", "size"] = ""
+    """Why the next statement cannot be set in it: it contains `__TRY`, or too many statements."""
 
 
 class DebugCode(Struct):

@@ -9,6 +9,7 @@ Reason: the normal variant stays as it is, and debugging needs nothing of the pr
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 from tappet.codegen import debug_code
 from tappet.codegen.debug_code import HEADER, StatementSite
@@ -154,11 +155,11 @@ class InstrumentedEmitter(FunctionEmitter):
         cases = " ".join(f"i32 {n + 1}, label %site{n}" for n in range(len(self.sites)))
         self.out += [f"switch i32 {target}, label %nowhere [{cases}]", "nowhere:", "unreachable"]
 
-    def why_no_jumps(self) -> str:
+    def fixed_order(self) -> Literal["", "try", "size"]:
         """Why the next statement cannot be set in the function; '' when it can."""
         if self.function.returns_twice:
-            return "the body contains __TRY"
-        return "" if self._jumps else f"the body has more than {MOST_JUMPS} statements"
+            return "try"
+        return "" if self._jumps else "size"
 
     # -- memory --------------------------------------------------------------------------------------
 

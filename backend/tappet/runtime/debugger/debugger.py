@@ -366,8 +366,10 @@ class Debugger:
         found = [number - first for number in variant.sites_at(*line) if number in inside]
         if not found:
             raise DebugError(f"the place is not in '{here.function.name}', where the task is halted")
-        if not here.function.jumps:
-            raise DebugError(f"the next statement cannot be set: {here.function.why_not}")
+        if here.function.fixed_order == "try":
+            raise DebugError("the next statement cannot be set in a body that contains __TRY")
+        if here.function.fixed_order:
+            raise DebugError("the body has too many statements to set the next one")
         loops = here.function.sites[found[0]].loops
         if here.site.loops[: len(loops)] != loops:
             raise DebugError("the next statement cannot be set inside a loop that the task is not in")
