@@ -5,20 +5,27 @@ Orders outlive the code: after a download or an online change they are placed ag
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
+from tappet.codegen.expressions.places import ExpressionError
 from tappet.codegen.symbol_map import SymbolError
 from tappet.runtime.debugger.places import code_spot, line_of
 from tappet.runtime.debugger.shapes import Breakpoint, BreakpointOrder, CodeSpot, Hits
 from tappet.runtime.debugger.variant import Variant
 from tappet.runtime.executive.records import Block, Record
 
+if TYPE_CHECKING:
+    from tappet.runtime.debugger.conditions import LogText
+    from tappet.runtime.expressions import NativeExpression
+
 MOST = 1000
 """Breakpoints of one runtime."""
 MOST_WATCHED = 1024
 """Bytes of the variable of a data breakpoint: they are compared before each statement."""
-_KINDS = {"halt": 0, "run_to": 1}
+_KINDS = {"halt": 0, "run_to": 1, "log": 2}
 _RULES = {"always": 0, "equal": 1, "from": 2, "every": 3}
 
 
@@ -38,6 +45,8 @@ class Wanted:
     """Address of the only instance meant; 0: all."""
     task: int | None = None
     """Index of the only task meant."""
+    condition: NativeExpression | None = None
+    text: LogText | None = None
 
     @property
     def hit_count(self) -> int:
@@ -52,6 +61,7 @@ class Wanted:
     def place(self, variant: Variant) -> None:
         """Find its statements, variable, instance and task in the loaded code."""
         self.sites, self.watched, self.instance, self.task = [], None, 0, None
+        self.condition, self.text = None, None
         self.reason = self._find(variant)
 
     def _find(self, variant: Variant) -> str | None:
@@ -73,8 +83,9 @@ class Wanted:
                 if watched.size > MOST_WATCHED:
                     return f"'{watched.path}' has {watched.size} bytes; at most {MOST_WATCHED} can be watched"
                 self.watched = watched.offset, watched.size
+                self._compile(variant)
                 return None
-        except SymbolError as error:
+        except (SymbolError, ExpressionError) as error:
             return str(error)
         if order.place is None:
             return "the breakpoint has no place"
@@ -82,7 +93,23 @@ class Wanted:
         if isinstance(line, str):
             return line
         self.sites = variant.sites_at(*line)
-        return None if self.sites else "there is no statement at this place or behind it in the loaded code"
+        if not self.sites:
+            return "there is no statement at this place or behind it in the loaded code"
+        try:
+            self._compile(variant)
+        except ExpressionError as error:
+            return str(error)
+        return None
+
+    def _compile(self, variant: Variant) -> None:
+        if self.order.condition or self.order.log:
+            from tappet.runtime.debugger import conditions  # the parser, which few runtimes need
+
+            scope = conditions.scope_at(variant, self.sites)
+            if self.order.condition:
+                self.condition = conditions.condition(variant, self.order.condition, scope)
+            if self.order.log and self.watched is None:
+                self.text = conditions.log_text(variant, self.order.log, scope)
 
     def shown(self, variant: Variant | None) -> Breakpoint:
         """As clients see it."""
@@ -111,14 +138,22 @@ class BreakpointTable:
         self._first = Block(4 * max(variant.count, 1))
         self._entries = Block(entry.size * max(len(pairs), 1))
         self._data = Block(watch.size * max(len(data), 1))
-        self._known: list[Block] = []
+        self._kept: list[Block] = []
+        self._texts = [(wanted.text, wanted.condition) for wanted in (*lines, *data)]
         first = self._first.view().cast("i")
         for position, (number, wanted) in enumerate(pairs):
             record = Record(entry, self._entries.address + position * entry.size)
             record["next"] = first[number]
             first[number] = position + 1
             self._fill(record, wanted, variant)
-            record["kind"] = _KINDS[wanted.kind]
+            record["kind"] = _KINDS["log" if wanted.text is not None else wanted.kind]
+            if wanted.text is not None and wanted.text.expressions:
+                listed = Block(8 * len(wanted.text.expressions))
+                listed.view().cast("Q")[: len(wanted.text.expressions)] = array(
+                    "Q", [e.address for e in wanted.text.expressions]
+                )
+                self._kept.append(listed)
+                record["valueCount"], record["pValues"] = len(wanted.text.expressions), listed.address
             record["pInstance"] = wanted.instance
         for position, wanted in enumerate(data):
             record = Record(watch, self._data.address + position * watch.size)
@@ -127,7 +162,7 @@ class BreakpointTable:
             offset, size = wanted.watched
             known = Block(size)
             known.view()[:size] = variant.application.image.read(offset, size)
-            self._known.append(known)
+            self._kept.append(known)
             record["pMemory"] = variant.application.image.address + offset
             record["pKnown"], record["size"] = known.address, size
         self._table = Block(layouts["BREAKPOINT_TABLE"].size)
@@ -141,5 +176,6 @@ class BreakpointTable:
         record["number"] = wanted.id
         record["hitRule"], record["hitCount"] = _RULES[hits.mode], hits.count
         record["pHits"] = wanted.hits.address
+        record["pCondition"] = wanted.condition.address if wanted.condition is not None else 0
         tasks = variant.application.contexts.tasks
         record["pTask"] = tasks[wanted.task].address if wanted.task is not None else 0

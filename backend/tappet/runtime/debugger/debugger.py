@@ -14,7 +14,7 @@ from tappet.codegen.debug_code import DebugCode
 from tappet.codegen.package import PackageError
 from tappet.codegen.values import Value
 from tappet.runtime.contexts import RUNNING, STOPPED
-from tappet.runtime.debugger import frames
+from tappet.runtime.debugger import frames, log_points
 from tappet.runtime.debugger.breakpoints import MOST, BreakpointTable, Wanted
 from tappet.runtime.debugger.places import code_spot, line_of
 from tappet.runtime.debugger.shapes import (
@@ -123,6 +123,8 @@ class Debugger:
         with self._lock:
             variant = self.variant
             halts = variant.context["halts"] if variant is not None else 0
+            if variant is not None:
+                log_points.collect(variant, self._wanted, self._plc.log)
             if halts == self._halts:
                 return
             self._halts = halts

@@ -51,11 +51,18 @@ class BreakpointOrder(Struct, frozen=True):
     kind: Literal["line", "data"] = "line"
     place: Spot | None = None
     expression: Annotated[Name | None, Meta(description="Path of the variable of a data breakpoint.")] = None
+    condition: Annotated[
+        Name | None, Meta(description="Expression of what is visible there: only where it holds.")
+    ] = None
     hits: Hits = Hits()
     instance: Annotated[Name | None, Meta(description="Path of the only function block instance meant.")] = (
         None
     )
     task: Annotated[Name | None, Meta(description="The only task meant.")] = None
+    log: Annotated[
+        Name | None,
+        Meta(description="Text for the log instead of a halt, with {expressions}; {{ and }} are braces."),
+    ] = None
     enabled: bool = True
 
 

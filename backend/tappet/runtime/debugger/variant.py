@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from tappet.codegen.debug_code import SITES_PREFIX, DebugCode, DebugFunction, StatementSite
 from tappet.runtime.executive.records import Block, Record
+from tappet.runtime.expressions import ExpressionMemory
 from tappet.runtime.posix import map_memory, write_memory
 
 if TYPE_CHECKING:
@@ -55,12 +56,27 @@ class Variant:
         self.context["siteCount"] = self.count
         self._task_memory = Block(layouts["DEBUG_TASK"].size * max(len(tasks), 1))
         self.tasks = self._task_memory.array(layouts["DEBUG_TASK"], len(tasks))
+        self.log = Block(layouts["DEBUG_LOG"].size)
+        self.context["pLog"] = self.log.address
         self._kept = [Block(KEPT_STACK) for _ in tasks]
+        self._expressions = [self._expression_memory(task) for task in tasks]
         for task, room in zip(self.tasks, self._kept, strict=True):
             task["pKept"], task["keptRoom"] = room.address, room.size
+        for task, memory in zip(self.tasks, self._expressions, strict=True):
+            task["pMemory"] = memory.address
         for context, task in zip(tasks, self.tasks, strict=True):
             self.executive.store(context.place("pDebug"), task.address)
         self.executive.store(application.contexts.application.place("pDebug"), self.context.address)
+
+    def _expression_memory(self, task: Record) -> ExpressionMemory:
+        """What conditions may look at: the image, what __NEW makes, and the stack of the task."""
+        image, heap = self.application.image, self.application.heap
+        ranges = [
+            (image.address, image.size),
+            (task["stackLow"], task["stackHigh"] - task["stackLow"]),
+            *([heap.arena] if heap.opened else []),
+        ]
+        return ExpressionMemory(self.executive, (image.address, 0, 0), ranges)
 
     # -- code ----------------------------------------------------------------------------------------
 
