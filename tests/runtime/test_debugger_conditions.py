@@ -223,7 +223,8 @@ def test_where_the_next_statement_cannot_be(plc: SoftPlc, target: int, why: str)
 
 
 def test_an_endless_loop_in_instrumented_code_can_be_paused() -> None:
-    text = "PROGRAM PLC_PRG\nVAR\n n : LINT;\n go : BOOL;\nEND_VAR\nn := n + 1;\nWHILE NOT go DO\nEND_WHILE\nn := -1;\nEND_PROGRAM"
+    declaration = "PROGRAM PLC_PRG\nVAR\n n : LINT;\n go : BOOL;\nEND_VAR\n"
+    text = f"{declaration}n := n + 1;\nWHILE NOT go DO\nEND_WHILE\nn := -1;\nEND_PROGRAM"
     plc = loaded(text)
     try:
         found = add(plc, 6)

@@ -121,12 +121,18 @@ class TaskGroup:
         if debug:
             context = Record(self.executive.layouts["DEBUG_CONTEXT"], debug)
             self.executive.store_flag(context.place("released"), int(wanted))
+            for task in self._debugged():
+                task["pause"] = task["mode"] = 0  # what was to halt has come to its end
 
     @property
     def halted(self) -> bool:
         """Whether a task stands at a statement."""
+        return any(task["halted"] for task in self._debugged())
+
+    def _debugged(self) -> list[Record]:
+        """The debugger's parts of the tasks; none without an instrumented variant."""
         layout = self.executive.layouts["DEBUG_TASK"]
-        return any(t["pDebug"] and Record(layout, t["pDebug"])["halted"] for t in self.contexts.tasks)
+        return [Record(layout, task["pDebug"]) for task in self.contexts.tasks if task["pDebug"]]
 
     def _await_boundary(self) -> None:
         due = time.monotonic() + BOUNDARY_TIMEOUT_S

@@ -56,7 +56,6 @@ class Debugger:
         self._last_step = 0
         self._sequence = 0
         self._halts = 0
-        self._pausing = False
 
     # -- state ---------------------------------------------------------------------------------------
 
@@ -125,7 +124,8 @@ class Debugger:
             halts = variant.context["halts"] if variant is not None else 0
             if variant is not None:
                 log_points.collect(variant, self._wanted, self._plc.log)
-            if halts == self._halts:
+            idle = variant is not None and variant.active and not self._needs(variant)
+            if halts == self._halts and not idle:
                 return
             self._halts = halts
             if variant is not None and variant.any_halted:
@@ -173,6 +173,10 @@ class Debugger:
             self._sequence += 1
             self._plc.announce("debug")
 
+    def _needs(self, variant: Variant) -> bool:
+        """Whether tasks have to run the variant."""
+        return any(w.active for w in self._wanted.values()) or variant.any_halted or variant.any_wanted
+
     def _direct(self) -> None:
         """Let tasks know the breakpoints, and run the code that is needed."""
         variant = self.variant
@@ -183,7 +187,7 @@ class Debugger:
         application.tasks.publish(variant.context.place("pTable"), table.address, table)
         variant.context["haltOthers"] = int(self._settings.other_tasks == "halt")
         variant.context["safeOutputs"] = int(self._settings.outputs == "safe")
-        needed = any(w.active for w in self._wanted.values()) or variant.any_halted or self._pausing
+        needed = self._needs(variant)
         variant.arm(table.sites, table.watches)
         if needed and not variant.active:
             variant.activate()
@@ -304,14 +308,12 @@ class Debugger:
         for i in tasks:
             if not variant.tasks[i]["halted"]:
                 variant.executive.store_flag(variant.tasks[i].place("pause"), 1)
-        self._pausing = True
         self._changed()
 
     def _go_on(self, variant: Variant, tasks: list[int], mode: int = _RUN) -> None:
         for i in tasks:
             variant.tasks[i]["mode"] = mode
         if mode == _RUN and len(tasks) == len(variant.halted()):
-            self._pausing = False
             for task in variant.tasks:
                 task["pause"] = 0
         self._direct()

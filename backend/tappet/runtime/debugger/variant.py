@@ -137,15 +137,17 @@ class Variant:
 
     def arm(self, sites: set[int], everywhere: bool) -> None:
         """Let the executive be called at these statements, or at all."""
-        every = ALL_SITES if everywhere or self._all_wanted() else 0
+        every = ALL_SITES if everywhere or self.any_wanted else 0
         flags = bytearray([every]) * self.count
         for number in sites:
             flags[number] |= AT_BREAKPOINT
         write_memory(self.flags.address, bytes(flags))
-        if not every and self._all_wanted():  # a task that halts may ask the others meanwhile
+        if not every and self.any_wanted:  # a task that halts may ask the others meanwhile
             write_memory(self.flags.address, bytes([ALL_SITES | AT_BREAKPOINT]) * self.count)
 
-    def _all_wanted(self) -> bool:
+    @property
+    def any_wanted(self) -> bool:
+        """Whether a task is to halt at a statement that is not known."""
         return any(task["pause"] or task["mode"] for task in self.tasks)
 
     def close(self) -> None:
