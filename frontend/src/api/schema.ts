@@ -1939,6 +1939,177 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/debug": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Debug State
+         * @description Breakpoints, settings, and where tasks are halted.
+         */
+        get: operations["debug_state"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/debug/breakpoints": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Debug Add Breakpoint
+         * @description Set a breakpoint at a line or element, or on the value of a variable.
+         */
+        post: operations["debug_add_breakpoint"];
+        /**
+         * Debug Remove Breakpoints
+         * @description Remove all breakpoints.
+         */
+        delete: operations["debug_remove_breakpoints"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/debug/breakpoints/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Debug Change Breakpoint
+         * @description Replace a breakpoint, for instance to disable it; its hits count from 0.
+         */
+        put: operations["debug_change_breakpoint"];
+        post?: never;
+        /**
+         * Debug Remove Breakpoint
+         * @description Remove a breakpoint.
+         */
+        delete: operations["debug_remove_breakpoint"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/debug/control": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Debug Control
+         * @description Halt, go on, or step: `continue` and `pause` mean all tasks where none is named.
+         *
+         *         `run_to` and `next_statement` need a place. `single_cycle` runs a halted application to the end of its
+         *         cycle and stops it there.
+         */
+        post: operations["debug_control"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/debug/settings": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Debug Settings
+         * @description What happens to outputs and to other tasks while a task is halted.
+         */
+        put: operations["debug_settings"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/debug/stack": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Debug Stack
+         * @description The call stack of a halted task, or of one that an exception in instrumented code has ended.
+         */
+        get: operations["debug_stack"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/debug/stack/{frame}/variables": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Debug Variables
+         * @description The variables of a level of a call stack: its own, and those of the instance or program.
+         */
+        get: operations["debug_variables"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/debug/stack/{frame}/write": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Debug Write
+         * @description Write a local variable of a level of a call stack; others are written by their path.
+         */
+        post: operations["debug_write"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/exception": {
         parameters: {
             query?: never;
@@ -2657,6 +2828,13 @@ export interface components {
             subkind: string | null;
         };
         /**
+         * AddBreakpoint
+         * @description Set a breakpoint at a line or element, or on the value of a variable.
+         */
+        AddBreakpoint: {
+            breakpoint: components["schemas"]["BreakpointOrder"];
+        };
+        /**
          * ApplicationData
          * @description An application: how it is checked, and the memory that it may take.
          */
@@ -3272,6 +3450,67 @@ export interface components {
              * @description The project to import into; null: a new one.
              */
             project_id?: string | null;
+        };
+        /**
+         * Breakpoint
+         * @description A breakpoint and what became of it.
+         */
+        Breakpoint: {
+            /** @description The next place where the program can halt. */
+            actual: components["schemas"]["CodeSpot"] | null;
+            hit_count: number;
+            id: number;
+            order: components["schemas"]["BreakpointOrder"];
+            /** @description Why it is not verified. */
+            reason: string | null;
+            verified: boolean;
+        };
+        /**
+         * BreakpointOrder
+         * @description A breakpoint as somebody wants it.
+         */
+        BreakpointOrder: {
+            /**
+             * @description Expression of what is visible there: only where it holds.
+             * @default null
+             */
+            condition?: string | null;
+            /** @default true */
+            enabled?: boolean;
+            /**
+             * @description Path of the variable of a data breakpoint.
+             * @default null
+             */
+            expression?: string | null;
+            /**
+             * @default {
+             *       "count": 1,
+             *       "mode": "always"
+             *     }
+             */
+            hits?: components["schemas"]["Hits"];
+            /**
+             * @description Path of the only function block instance meant.
+             * @default null
+             */
+            instance?: string | null;
+            /**
+             * @default line
+             * @enum {unknown}
+             */
+            kind?: "data" | "line";
+            /**
+             * @description Text for the log instead of a halt, with {expressions}; {{ and }} are braces.
+             * @default null
+             */
+            log?: string | null;
+            /** @default null */
+            place?: components["schemas"]["Spot"] | null;
+            /**
+             * @description The only task meant.
+             * @default null
+             */
+            task?: string | null;
         };
         /**
          * BuildReport
@@ -3976,6 +4215,13 @@ export interface components {
             ];
         };
         /**
+         * ChangeBreakpoint
+         * @description Replace a breakpoint, for instance to disable it; its hits count from 0.
+         */
+        ChangeBreakpoint: {
+            breakpoint: components["schemas"]["BreakpointOrder"];
+        };
+        /**
          * ChangedVariable
          * @description What an online change does to one variable, and why.
          */
@@ -4033,6 +4279,26 @@ export interface components {
             channels: {
                 [key: string]: components["schemas"]["Binding"];
             };
+        };
+        /**
+         * CodeSpot
+         * @description Where the program is. Object and part are known for what was built from a project.
+         */
+        CodeSpot: {
+            /**
+             * @description Id of the element in a drawn part.
+             * @default null
+             */
+            element?: string | null;
+            end_line: number;
+            /** @description From 1: in the part, or in the text where no part is known. */
+            line: number;
+            /** @default null */
+            object_id?: string | null;
+            /** @default null */
+            part?: string | null;
+            pou: string;
+            uri: string;
         };
         /**
          * CodingRule
@@ -4295,6 +4561,21 @@ export interface components {
             velocity: boolean;
         };
         /**
+         * ControlDebugger
+         * @description Halt, go on, or step: `continue` and `pause` mean all tasks where none is named.
+         *
+         *         `run_to` and `next_statement` need a place. `single_cycle` runs a halted application to the end of its
+         *         cycle and stops it there.
+         */
+        ControlDebugger: {
+            /** @enum {unknown} */
+            command: "continue" | "next_statement" | "pause" | "run_to" | "single_cycle" | "step_into" | "step_out" | "step_over";
+            /** @default null */
+            place?: components["schemas"]["Spot"] | null;
+            /** @default null */
+            task?: string | null;
+        };
+        /**
          * CopyTarget
          * @description Where a copy goes.
          */
@@ -4340,6 +4621,21 @@ export interface components {
              * @default 1000
              */
             samples?: number;
+        };
+        /**
+         * DebugState
+         * @description What the debugger does.
+         */
+        DebugState: {
+            /** @description Tasks run the instrumented variant. */
+            active: boolean;
+            /** @description The instrumented variant of the application is loaded. */
+            available: boolean;
+            breakpoints: components["schemas"]["Breakpoint"][];
+            halted: components["schemas"]["Halt"][];
+            /** @description Grows with every change of this state. */
+            sequence: number;
+            settings: components["schemas"]["Settings"];
         };
         /**
          * DefinitionOrder
@@ -4989,6 +5285,16 @@ export interface components {
             places: components["schemas"]["ImagePlace"][];
         };
         /**
+         * Frame
+         * @description One level of the call stack.
+         */
+        Frame: {
+            /** @description 0 is the innermost. */
+            index: number;
+            instance: string | null;
+            place: components["schemas"]["CodeSpot"];
+        };
+        /**
          * FreezeFlight
          * @description Keep what is recorded, or record again. An exception stays frozen until it is reset.
          */
@@ -5117,6 +5423,26 @@ export interface components {
             subkind: string | null;
         };
         /**
+         * Halt
+         * @description A task that stands at a statement.
+         */
+        Halt: {
+            /** @default null */
+            breakpoint_id?: number | null;
+            cycle: number;
+            /**
+             * @description Path of the function block instance.
+             * @default null
+             */
+            instance?: string | null;
+            /** @default null */
+            message?: string | null;
+            place: components["schemas"]["CodeSpot"];
+            /** @enum {unknown} */
+            reason: "breakpoint" | "data" | "pause" | "run_to" | "step";
+            task: string;
+        };
+        /**
          * Health
          * @description The server answers and reaches its database.
          */
@@ -5217,6 +5543,19 @@ export interface components {
             from_us: number;
             /** @description Starts that were so late. */
             starts: number;
+        };
+        /**
+         * Hits
+         * @description At which of the passes that fulfil its conditions a breakpoint acts.
+         */
+        Hits: {
+            /** @default 1 */
+            count?: number;
+            /**
+             * @default always
+             * @enum {unknown}
+             */
+            mode?: "always" | "equal" | "every" | "from";
         };
         /**
          * Homing
@@ -7794,7 +8133,19 @@ export interface components {
             connected: boolean;
             /** Data Id */
             data_id: string | null;
+            /**
+             * Debug Sequence
+             * @description Grows with every change of the debugger's state.
+             * @default 0
+             */
+            debug_sequence: number;
             exception: components["schemas"]["RuntimeException"] | null;
+            /**
+             * Halted
+             * @description Tasks that stand at a statement.
+             * @default []
+             */
+            halted: string[];
             /** Id */
             id: string;
             /** Name */
@@ -8208,6 +8559,31 @@ export interface components {
             searched: number;
         };
         /**
+         * SetDebugSettings
+         * @description What happens to outputs and to other tasks while a task is halted.
+         */
+        SetDebugSettings: {
+            settings: components["schemas"]["Settings"];
+        };
+        /**
+         * Settings
+         * @description What happens around a halted task.
+         */
+        Settings: {
+            /**
+             * @description `halt`: they halt at their next statement.
+             * @default run
+             * @enum {unknown}
+             */
+            other_tasks?: "halt" | "run";
+            /**
+             * @description `safe`: all outputs are zero while a task is halted.
+             * @default keep
+             * @enum {unknown}
+             */
+            outputs?: "keep" | "safe";
+        };
+        /**
          * Severity
          * @description How bad.
          * @enum {string}
@@ -8355,6 +8731,38 @@ export interface components {
             op: "speak";
         };
         /**
+         * Spot
+         * @description A line or a drawn element where somebody wants to halt.
+         */
+        Spot: {
+            /**
+             * @description Id of an element of a drawn part.
+             * @default null
+             */
+            element?: string | null;
+            /**
+             * @description From 1, as the editor counts.
+             * @default null
+             */
+            line?: number | null;
+            /** @description Object of the project; the uri of a text without project. */
+            object_id: string;
+            /**
+             * @description Empty for a text without project.
+             * @default implementation
+             */
+            part?: string;
+        };
+        /**
+         * Stack
+         * @description The call stack of a task.
+         */
+        Stack: {
+            cycle: number;
+            frames: components["schemas"]["Frame"][];
+            task: string;
+        };
+        /**
          * StateChanged
          * @description The runtime's state; the first message after opening, then at every change.
          */
@@ -8367,7 +8775,19 @@ export interface components {
             connected: boolean;
             /** Data Id */
             data_id: string | null;
+            /**
+             * Debug Sequence
+             * @description Grows with every change of the debugger's state.
+             * @default 0
+             */
+            debug_sequence: number;
             exception: components["schemas"]["RuntimeException"] | null;
+            /**
+             * Halted
+             * @description Tasks that stand at a statement.
+             * @default []
+             */
+            halted: string[];
             /** Id */
             id: string;
             /** Name */
@@ -9660,6 +10080,35 @@ export interface components {
             values: components["schemas"]["Value"][];
         };
         /**
+         * Variable
+         * @description A variable of a frame.
+         */
+        Variable: {
+            kind: string;
+            /** @description IEC literal; empty for structures and arrays. */
+            literal: string;
+            name: string;
+            /**
+             * @description By which it can be monitored as any other.
+             * @default null
+             */
+            path?: string | null;
+            /** @enum {unknown} */
+            scope: "local" | "this";
+            section: string;
+            type: string;
+            /** @description JSON value; null when it cannot be read. */
+            value: unknown;
+            writable: boolean;
+        };
+        /**
+         * Variables
+         * @description All variables of a frame.
+         */
+        Variables: {
+            variables: components["schemas"]["Variable"][];
+        };
+        /**
          * WatchdogData
          * @description Watchdog of a task (TASK-30..33).
          */
@@ -9689,6 +10138,16 @@ export interface components {
         WriteOrder: {
             /** Values */
             values: components["schemas"]["NewValue"][];
+        };
+        /**
+         * WriteVariable
+         * @description Write a local variable of a level of a call stack; others are written by their path.
+         */
+        WriteVariable: {
+            name: string;
+            task: string;
+            /** @description A JSON value or an IEC literal. */
+            value: unknown;
         };
     };
     responses: never;
@@ -14264,6 +14723,430 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_state: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DebugState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_add_breakpoint: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AddBreakpoint"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Breakpoint"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_remove_breakpoints: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_change_breakpoint: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ChangeBreakpoint"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Breakpoint"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_remove_breakpoint: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+                id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_control: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ControlDebugger"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DebugState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_settings: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SetDebugSettings"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DebugState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_stack: {
+        parameters: {
+            query: {
+                task: string;
+            };
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Stack"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_variables: {
+        parameters: {
+            query: {
+                task: string;
+            };
+            header?: never;
+            path: {
+                runtime_id: string;
+                frame: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Variables"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_write: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+                frame: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WriteVariable"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Variable"];
+                };
             };
             /** @description The request was refused */
             422: {
