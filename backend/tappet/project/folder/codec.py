@@ -54,15 +54,8 @@ def encode(project: Project) -> dict[str, bytes]:
     """
     files: dict[str, bytes] = {}
     entries: dict[str, list[Entry]] = defaultdict(list)
-    folders: dict[str, str] = {}
-    for item in project.walk():
-        if item.parent_id is not None:
-            folder = folders[item.parent_id]
-        else:
-            folder = DEVICES if item.kind == DEVICE else POUS
-        place = f"{folder}/{stem_of(item.name)}"
-        folders[item.id] = place
-        entries[folder].append(_encode_object(item, place, files))
+    for item, place in placed(project):
+        entries[place.rpartition("/")[0]].append(_encode_object(item, place, files))
     for folder, children in entries.items():
         files[f"{folder}/{INDEX_FILE}"] = write_index(children)
     files[PROJECT_FILE] = write_project_file(project.name, project.description)
@@ -74,6 +67,18 @@ def encode(project: Project) -> dict[str, bytes]:
         if name_key(path) not in own_folders and own.isdisjoint(_with_ancestors(name_key(path)))
     }
     return dict(sorted({**extra, **files}.items()))
+
+
+def placed(project: Project) -> Iterator[tuple[ProjectObject, str]]:
+    """Every object with the path of its file without ending, which is the folder of its children, too."""
+    folders: dict[str, str] = {}
+    for item in project.walk():
+        if item.parent_id is not None:
+            folder = folders[item.parent_id]
+        else:
+            folder = DEVICES if item.kind == DEVICE else POUS
+        folders[item.id] = f"{folder}/{stem_of(item.name)}"
+        yield item, folders[item.id]
 
 
 def decode(files: Mapping[str, bytes]) -> DecodedFolder:

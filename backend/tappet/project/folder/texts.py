@@ -50,6 +50,25 @@ def read_text(form: IecText, name: str, text: str, split: int | None = None) -> 
     return Parts(declaration, _without_newline(_without_end(rest, _end(form, name, declaration))))
 
 
+def implementation_line(form: IecText, name: str, parts: Parts, text: str) -> int | None:
+    """The line, from 0, at which the implementation stands in the text of a file; None where it is not in
+    it.
+    """
+    if not parts.implementation:
+        return None
+    lines, wanted = text.split("\n"), parts.implementation.split("\n")
+    declared = parts.declaration.count("\n") + 1 if parts.declaration else 0
+    usual = declared + (_opening(form, name) is not None)
+    places = (usual, *(line for line in range(len(lines) - len(wanted), -1, -1) if line != usual))
+    return next((line for line in places if lines[line : line + len(wanted)] == wanted), None)
+
+
+def declaration_line(form: IecText, name: str, text: str) -> int:
+    """The line, from 0, at which the declaration stands in the text of a file."""
+    opening = _opening(form, name)
+    return 1 if opening is not None and text.startswith(f"{opening}\n") else 0
+
+
 def kind_of_text(text: str) -> str | None:
     """The kind that a text says it is of; one that claims some of such texts is asked first."""
     subkind = subkind_of(text)
