@@ -10,7 +10,7 @@ DATA   ?= data
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := run
-.PHONY: run test test-all test-frontend fuzz check check-backend check-frontend check-types format lock system generate pictures clean
+.PHONY: run test test-all test-frontend test-vscode fuzz check check-backend check-frontend check-types format lock system generate pictures clean
 
 ## run: set everything up, then serve the IDE with a running example machine and print its address
 run: $(VENV)/.ready frontend/dist/.ready
@@ -27,13 +27,13 @@ BROWSERS := -n 2 --dist worksteal
 
 ## test: all fast tests, those in a real browser included
 test:
-	@$(BESIDE) system $(CHECKS) test-frontend frontend/dist/.ready
+	@$(BESIDE) system $(CHECKS) test-frontend test-vscode frontend/dist/.ready
 	$(BIN)/python -m pytest --ignore tests/e2e -m "not slow" $(PARALLEL)
 	$(BIN)/python -m pytest tests/e2e -m "not slow" $(BROWSERS)
 
 ## test-all: the slow suites as well
 test-all:
-	@$(BESIDE) system $(CHECKS) test-frontend frontend/dist/.ready
+	@$(BESIDE) system $(CHECKS) test-frontend test-vscode frontend/dist/.ready
 	$(BIN)/python -m pytest --ignore tests/e2e $(PARALLEL)
 	$(BIN)/python -m pytest tests/e2e $(BROWSERS)
 
@@ -63,6 +63,10 @@ check-types: frontend/node_modules/.ready
 test-frontend: frontend/node_modules/.ready
 	cd frontend && npm run --silent test
 
+## test-vscode: the extension for VS Code, built, checked and tested
+test-vscode: plugins/vscode/node_modules/.ready
+	cd plugins/vscode && npm run --silent typecheck && npm run --silent build && npm run --silent test
+
 format: $(VENV)/.ready
 	$(BIN)/ruff format backend tests
 	$(BIN)/ruff check --fix backend tests
@@ -80,6 +84,7 @@ generate: $(VENV)/.ready frontend/node_modules/.ready
 	$(BIN)/python -m tappet.lang.diagnostic_pages
 	$(BIN)/python -m tappet.manual
 	$(BIN)/python -m tappet.iec.typescript
+	$(BIN)/python -m tappet.iec.textmate
 	$(BIN)/python -m tappet.project.axes.channels > frontend/src/kinds/axis/channels.json
 	$(BIN)/python -m tappet.lang.languages.il.typescript
 	$(BIN)/python tests/iec/iec_texts.py
@@ -97,6 +102,10 @@ frontend/node_modules/.ready: frontend/package-lock.json frontend/package.json
 	cd frontend && npm ci --no-audit --no-fund --loglevel=error
 	@touch $@
 
+plugins/vscode/node_modules/.ready: plugins/vscode/package-lock.json plugins/vscode/package.json
+	cd plugins/vscode && npm ci --no-audit --no-fund --loglevel=error
+	@touch $@
+
 FRONTEND_SOURCES := $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
 
 frontend/dist/.ready: frontend/node_modules/.ready $(FRONTEND_SOURCES)
@@ -112,4 +121,4 @@ pictures: $(VENV)/.ready frontend/dist/.ready system
 	TAPPET_PICTURES=docs/images $(BIN)/python -m pytest tests/e2e/test_pictures.py
 
 clean:
-	rm -rf $(VENV) frontend/node_modules frontend/dist build dist
+	rm -rf $(VENV) frontend/node_modules frontend/dist plugins/vscode/node_modules plugins/vscode/dist build dist

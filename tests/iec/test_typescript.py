@@ -1,9 +1,11 @@
 """What the editors in the browser have of the words and the scanner is what is here."""
 
+import json
 from pathlib import Path
 
 from iec_texts import CORPUS, corpus
 
+from tappet.iec import textmate
 from tappet.iec.typescript import FILE, javascript, module
 from tappet.iec.words import OPERATOR_FUNCTIONS
 from tappet.lang.services.operators import OPERATOR_HEADS
@@ -13,6 +15,12 @@ ROOT = Path(__file__).parents[2]
 
 def test_the_module_is_up_to_date() -> None:
     assert (ROOT / FILE).read_text(encoding="utf-8") == module(), "run 'make generate'"
+
+
+def test_the_grammar_of_other_editors_is_up_to_date() -> None:
+    assert json.loads((ROOT / textmate.FILE).read_text(encoding="utf-8")) == textmate.grammar(), (
+        "run 'make generate'"
+    )
 
 
 def test_the_texts_are_up_to_date() -> None:
