@@ -14,8 +14,8 @@ from lsp_client import Client
 from tappet.lang.services.workspace import Workspace
 from tappet.project import edit, folder
 from tappet.project.new_project import new_project
+from tappet.server.framed_messages import FrameError, frame, read_message
 from tappet.server.lsp.folder_programs import FolderPrograms, canonical_uri, file_uri
-from tappet.server.lsp.stdio import FrameError, frame, read_message
 
 
 def write(root: Path, files: dict[str, str]) -> None:

@@ -140,6 +140,13 @@ COMMANDS = (
         goes_on=True,
     ),
     Command(
+        ("dap",),
+        "dap",
+        "dap",
+        "Debug adapter on standard input and output, for editors of the Debug Adapter Protocol.",
+        goes_on=True,
+    ),
+    Command(
         ("bench",),
         "bench",
         "bench",
