@@ -44,6 +44,10 @@ async def _begin(wanted: Launch | Attach, say: Say) -> Debuggee:
     from tappet.server.dap.debuggee import Refused
     from tappet.server.dap.messages import Attach
 
+    if isinstance(wanted, Attach) and not (wanted.program and wanted.runtime):
+        raise Refused(
+            "attach needs 'program', the folder, and 'runtime', its address such as ws://127.0.0.1:11740"
+        )
     try:
         built = await asyncio.to_thread(_build, Path(wanted.program), wanted.application)
         if isinstance(built, list):

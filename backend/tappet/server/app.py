@@ -23,6 +23,7 @@ from tappet.server.builds import routes as routes_build
 from tappet.server.cams import routes as routes_cams
 from tappet.server.cams import running_routes as routes_running_cams
 from tappet.server.comparisons import routes as routes_comparisons
+from tappet.server.dap import routes as routes_dap
 from tappet.server.docs import routes as routes_docs
 from tappet.server.documentation import routes as routes_documentation
 from tappet.server.events import routes as routes_events
@@ -74,6 +75,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_tests.router,
     routes_libraries.router,
     routes_help.router,
+    routes_dap.router,
     routes_lsp.router,
     routes_projects.router,
     routes_exchange.router,

@@ -71,10 +71,13 @@ class Launch(Struct, frozen=True, rename="camel"):
 
 
 class Attach(Struct, frozen=True, rename="camel"):
-    """Arguments of `attach`: a runtime that runs what is built of `program`."""
+    """Arguments of `attach`: a runtime that runs what is built of `program`.
 
-    program: str
-    runtime: str
+    On the WebSocket of the server, which knows both, there are none.
+    """
+
+    program: str = ""
+    runtime: str = ""
     """`ws://host:port`."""
     application: str | None = None
     token_file: str | None = None
