@@ -1,4 +1,4 @@
-"""Lines of files of a project folder are found from parts of objects: the texts say whether they are right."""
+"""Lines of files of a project folder are found from parts of objects: the texts say whether they are."""
 
 from pathlib import Path
 
