@@ -309,6 +309,19 @@ def test_a_program_with_errors_and_a_lost_runtime_are_told() -> None:
     talk(conversation)
 
 
+def test_refusals_are_said_in_the_language_of_the_editor() -> None:
+    async def conversation(client: DapClient, debuggee: WalkingDebuggee) -> None:
+        await client.body("initialize", adapterID="tappet", locale="zh-cn")
+        assert await client.refusal("threads") == "没有调试任何应用：请先发送 launch 或 attach"
+        await client.body("launch", program="/machine")
+        await client.body("configurationDone")
+        assert await client.refusal("next", threadId=3) == "没有线程 3"
+        await client.body("stepBack", threadId=1)
+        assert (await client.event("stopped"))["description"].startswith("周期 104")
+
+    talk(conversation)
+
+
 def test_what_is_no_request_is_answered_and_ends_nothing() -> None:
     async def conversation(client: DapClient, debuggee: WalkingDebuggee) -> None:
         for text in ("", "{", "[]", "7", '{"seq": 1}', '{"type": "response", "request_seq": 1}', '"\\ud800"'):

@@ -39,7 +39,9 @@ class Breakpoints:
     async def _set_breakpoints(self, request: m.Request) -> Any:
         given = m.arguments_as(m.SetBreakpoints, request)
         if given.source.path is None:
-            return {"breakpoints": [_unverified("Breakpoints are set in files") for _ in given.breakpoints]}
+            return {
+                "breakpoints": [self._unverified("Breakpoints are set in files") for _ in given.breakpoints]
+            }
         wanted: list[Wanted | str] = [self._wanted(each) for each in given.breakpoints]
         found = await self._view.need().set_breakpoints(
             given.source.path, [w for w in wanted if isinstance(w, Wanted)]
@@ -70,8 +72,12 @@ class Breakpoints:
     def _answers(self, wanted: Sequence[Wanted | str], found: Sequence[Breakpoint]) -> list[dict[str, Any]]:
         rest = iter(found)
         return [
-            _unverified(each) if isinstance(each, str) else self._breakpoint(next(rest)) for each in wanted
+            self._unverified(each) if isinstance(each, str) else self._breakpoint(next(rest))
+            for each in wanted
         ]
+
+    def _unverified(self, reason: str) -> dict[str, Any]:
+        return {"verified": False, "message": self._view.say(reason)}
 
     def _breakpoint(self, found: Breakpoint) -> dict[str, Any]:
         number = self._numbers.setdefault(found.id, len(self._numbers) + 1)
@@ -82,7 +88,7 @@ class Breakpoints:
                 "line": self._view.line_out(found.location.line),
             }
         if found.reason:
-            answer["message"] = found.reason
+            answer["message"] = self._view.say(found.reason)
         return answer
 
 
@@ -95,7 +101,3 @@ def _hits(text: str | None) -> Hits | str:
         forms = "5 or >= 5 (from the fifth hit on), = 5 (the fifth) or % 5 (every fifth)"
         return f"The hit condition '{text}' is none: write {forms}"
     return Hits(_MODES[found["sign"]], int(found["count"]))
-
-
-def _unverified(reason: str) -> dict[str, Any]:
-    return {"verified": False, "message": reason}

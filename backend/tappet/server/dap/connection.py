@@ -7,6 +7,8 @@ from typing import Any
 
 from tappet.server.dap import messages as m
 from tappet.server.dap.debuggee import Refused
+from tappet.translation.language import Language
+from tappet.translation.sentences import sentence
 
 Send = Callable[[str], Awaitable[None]]
 Handler = Callable[[m.Request], Awaitable[Any]]
@@ -19,6 +21,8 @@ class Connection:
     def __init__(self, send: Send) -> None:
         self._send = send
         self._number = 0
+        self.language: Language = "en"
+        """In which refusals and events are said."""
 
     async def serve(self, text: str, handlers: dict[str, Handler]) -> m.Request | None:
         """Answer one message; the request, where it was carried out. Raises ConnectionError behind the
@@ -34,7 +38,7 @@ class Connection:
         try:
             handler = handlers.get(request.command)
             if handler is None:
-                raise Refused(f"There is no request '{request.command}'")
+                raise m.MessageError(f"There is no request '{request.command}'")
             body = await handler(request)
         except (Refused, m.MessageError) as error:
             await self._refuse(request, str(error))
@@ -45,7 +49,8 @@ class Connection:
         await self._answer(request, {"success": True} | ({"body": body} if body is not None else {}))
         return request
 
-    async def _refuse(self, request: m.Request, reason: str) -> None:
+    async def _refuse(self, request: m.Request, english: str) -> None:
+        reason = sentence(english, self.language)
         error = {"id": 1, "format": "{reason}", "variables": {"reason": reason}, "showUser": True}
         await self._answer(request, {"success": False, "message": reason, "body": {"error": error}})
 
@@ -59,7 +64,8 @@ class Connection:
 
     async def output(self, text: str, category: str = "console") -> None:
         """A line in the client's debug console."""
-        await self.event("output", {"category": category, "output": f"{text.removesuffix(chr(10))}\n"})
+        said = sentence(text.removesuffix("\n"), self.language)
+        await self.event("output", {"category": category, "output": f"{said}\n"})
 
     async def _write(self, message: dict[str, Any]) -> None:
         self._number += 1

@@ -45,7 +45,7 @@ class Inspection:
         if self._view.at is not None:
             frame = {
                 "id": self._view.handles.frame(task, 0, None),
-                "name": f"cycle {self._view.cycle}",
+                "name": self._view.say(f"cycle {self._view.cycle}"),
                 "line": 0,
                 "column": 0,
             }
@@ -211,7 +211,7 @@ class Inspection:
         reason = await self._view.need().exception()
         if reason is None:
             raise Refused("The application is in no exception")
-        return {"exceptionId": "Exception", "description": reason, "breakMode": "always"}
+        return {"exceptionId": "Exception", "description": self._view.say(reason), "breakMode": "always"}
 
     async def _data_breakpoint_info(self, request: m.Request) -> Any:
         given = m.arguments_as(m.DataBreakpointInfo, request)
@@ -219,7 +219,9 @@ class Inspection:
         if path is None:
             return {
                 "dataId": None,
-                "description": f"{given.name} is a local variable: only variables that stay can be watched",
+                "description": self._view.say(
+                    f"{given.name} is a local variable: only variables that stay can be watched"
+                ),
             }
         return {"dataId": path, "description": path, "accessTypes": ["write"], "canPersist": True}
 

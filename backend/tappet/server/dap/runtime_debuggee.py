@@ -145,7 +145,7 @@ class RuntimeDebuggee:
             try:
                 found.append(await self._add(order, self._data))
             except Refused as error:
-                found.append(Breakpoint(f"data {each.variable}", False, str(error)))
+                found.append(Breakpoint(f"data:{each.variable}", False, str(error)))
         return found
 
     async def _add(self, order: shapes.BreakpointOrder, kept: list[int]) -> Breakpoint:

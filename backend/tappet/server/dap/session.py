@@ -18,6 +18,7 @@ from tappet.server.dap.connection import Connection, Handler, Send
 from tappet.server.dap.debuggee import Command, Debuggee, Halt, Refused, State
 from tappet.server.dap.inspection import Inspection
 from tappet.server.dap.view import View
+from tappet.translation.language import language_of
 
 Begin = Callable[[m.Launch | m.Attach, Callable[[str], Awaitable[None]]], Awaitable[Debuggee]]
 """Builds and loads; what it prints meanwhile goes to the second argument. Raises Refused."""
@@ -113,7 +114,8 @@ class DebugSession:
     # -- begin and end -----------------------------------------------------------------------------------
 
     async def _initialize(self, request: m.Request) -> Any:
-        self._view.initialize = m.arguments_as(m.Initialize, request)
+        self._view.initialize = given = m.arguments_as(m.Initialize, request)
+        self._connection.language = self._view.language = language_of(given.locale)
         return CAPABILITIES
 
     async def _launch(self, request: m.Request) -> None:
@@ -203,7 +205,9 @@ class DebugSession:
         number = self._breakpoints.number(halt.breakpoint)
         if number is not None:
             body["hitBreakpointIds"] = [number]
-        return body | ({"text": halt.message, "description": halt.message} if halt.message else {})
+        if halt.message:
+            body["text"] = body["description"] = self._view.say(halt.message)
+        return body
 
     # -- running -----------------------------------------------------------------------------------------
 
@@ -238,7 +242,11 @@ class DebugSession:
             return {"targets": []}
         line = self._view.line_in(given.line)
         self._goto_places.append((given.source.path, line))
-        return {"targets": [{"id": len(self._goto_places), "label": f"line {line}", "line": given.line}]}
+        return {
+            "targets": [
+                {"id": len(self._goto_places), "label": self._view.say(f"line {line}"), "line": given.line}
+            ]
+        }
 
     async def _goto(self, request: m.Request) -> None:
         given = m.arguments_as(m.Goto, request)
@@ -267,7 +275,9 @@ class DebugSession:
         before = (last.timestamp_ns - cycle.timestamp_ns) / 1e9
         text = f"cycle {cycle.number}, {before:.3f} s before the last one"
         body = {"reason": "step", "threadId": given.thread_id, "allThreadsStopped": True}
-        await self._connection.event("stopped", body | {"description": text, "text": text})
+        await self._connection.event(
+            "stopped", body | dict.fromkeys(("description", "text"), self._view.say(text))
+        )
 
     async def _back_to_now(self) -> None:
         """From the past to the present, which stands as it stood, or runs."""

@@ -7,6 +7,8 @@ from typing import Any
 from tappet.server.dap.debuggee import Debuggee, Location, PastCycle, Refused
 from tappet.server.dap.handles import Handles
 from tappet.server.dap.messages import Initialize
+from tappet.translation.language import Language
+from tappet.translation.sentences import sentence
 
 
 class View:
@@ -14,12 +16,17 @@ class View:
 
     def __init__(self) -> None:
         self.initialize = Initialize()
+        self.language: Language = "en"
         self.debuggee: Debuggee | None = None
         self.handles = Handles()
         self.past: list[PastCycle] = []
         self.at: int | None = None
         """Index in `past` of the cycle that is shown; None for the present."""
         self._references: list[str] = []
+
+    def say(self, english: str) -> str:
+        """A sentence in the language of the client."""
+        return sentence(english, self.language)
 
     def need(self) -> Debuggee:
         """The debuggee. Raises Refused before there is one."""
