@@ -17,6 +17,8 @@ from pathlib import Path
 import pytest
 
 from tappet.codegen.build import BuildSession, build_application
+from tappet.codegen.debug_build import instrument
+from tappet.codegen.debug_code import DebugCode
 from tappet.codegen.package import CodePackage
 from tappet.lang.source import Source
 from tappet.runtime.flight import FlightSettings
@@ -72,12 +74,41 @@ def test_file(path: Path) -> None:
     run(result.package, expectation)
 
 
-def run(package: CodePackage, expectation: Expectation) -> None:
+def check_instrumented(path: Path) -> None:
+    """The variant for the debugger comes to the same values and faults."""
+    text = path.read_text(encoding="utf-8")
+    expectation = read(text)
+    session = BuildSession()
+    result = build_application([Source(path.name, text)], session=session)
+    if result.package is not None:
+        assert session.generated is not None
+        run(result.package, expectation, instrument(session.generated))
+
+
+_NAMED = [pytest.param(f, id=str(f.relative_to(FOLDER).with_suffix(""))) for f in FILES]
+
+
+@pytest.mark.parametrize("path", _NAMED[::12])
+def test_instrumented(path: Path) -> None:
+    check_instrumented(path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", _NAMED)
+def test_every_file_instrumented(path: Path) -> None:
+    check_instrumented(path)
+
+
+def run(package: CodePackage, expectation: Expectation, variant: DebugCode | None = None) -> None:
     """In the soft PLC itself, on virtual time."""
     with LocalRuntime(package, flight=FlightSettings(memory=0)) as runtime:
+        if variant is not None:
+            runtime.plc.debugger.load(variant.to_bytes())
+            runtime.plc.debugger.keep_active(True)
         with contextlib.suppress(ApplicationException):
             runtime.run(expectation.cycles)
         fault = runtime.exception
+        assert runtime.plc.debugger.state().active is (variant is not None)
         if expectation.fault is None:
             assert fault is None
         else:

@@ -11,6 +11,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
+from tappet.bench import instrumented
 from tappet.bench.native import CProgram, NativeLoop, gcc_version, scratch_directory
 from tappet.bench.report import Report, Row
 from tappet.codegen.build import build_application
@@ -106,5 +107,6 @@ def run(only: Sequence[str] = ()) -> Report:
     with scratch_directory() as scratch:
         directory = Path(scratch) if compiler else None
         rows = [measure(name, directory) for name in names() if not only or name in only]
-    remark = () if compiler else ("gcc is not installed: no baseline",)
+    remark = [] if compiler else ["gcc is not installed: no baseline"]
+    remark.append(instrumented.remark(WORKLOADS / f"{row.name}.st" for row in rows))
     return Report("scan", f"{compiler} -O2" if compiler else "none", rows, BAR, remark)

@@ -56,6 +56,7 @@ class Debugger:
         self._last_step = 0
         self._sequence = 0
         self._halts = 0
+        self._kept = False
 
     # -- state ---------------------------------------------------------------------------------------
 
@@ -175,7 +176,14 @@ class Debugger:
 
     def _needs(self, variant: Variant) -> bool:
         """Whether tasks have to run the variant."""
-        return any(w.active for w in self._wanted.values()) or variant.any_halted or variant.any_wanted
+        asked = self._kept or variant.any_halted or variant.any_wanted
+        return asked or any(w.active for w in self._wanted.values())
+
+    def keep_active(self, wanted: bool) -> None:
+        """Whether tasks run the variant although nothing is to halt."""
+        with self._lock:
+            self._kept = wanted
+            self._changed()
 
     def _direct(self) -> None:
         """Let tasks know the breakpoints, and run the code that is needed."""
