@@ -104,6 +104,14 @@ def test_a_day_of_debugging(app: FastAPI, engineer: TestClient) -> None:
     read = engineer.post(f"{RUNTIME}/values/read", json={"expressions": ["PLC_PRG.n"]}).json()
     assert read["values"][0]["value"] == 500
 
+    ask(engineer, "PUT", "/flow", json={"object_ids": [item.id]})
+    ask(engineer, "POST", "/control", json={"command": "continue"})
+    halted(engineer)
+    flow = ask(engineer, "GET", "/flow", params={"object_id": item.id})
+    executed = {s["line"]: {v["name"] for v in s["values"]} for s in flow["statements"]}
+    assert executed[1] == {"t", "n"}
+    ask(engineer, "PUT", "/flow", json={"object_ids": []})
+
     save(f"// moved down\n{BODY}")
     load("online_change")
     until(lambda: ask(engineer, "GET", "")["breakpoints"][0]["verified"])

@@ -16,9 +16,13 @@ from tappet.codegen.object_cache import ObjectCache
 from tappet.codegen.symbols_build import TypeTable
 from tappet.core import ir
 from tappet.core.program import Program, path_of
+from tappet.lang import ast
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, VarSymbol
+from tappet.lang.walk import own_expressions, statements
 
+MOST_NAMES = 8
+"""Variables of a statement whose values flow control keeps; FLOW_RESULT has room for so many."""
 LEVEL = 1
 """Optimisation of the variant: it is compiled while somebody waits."""
 
@@ -70,7 +74,8 @@ class _Instrumentation:
             return FunctionEmitter(state, function)
         layout = FrameLayout()
         variables = tuple(self._variables(function, layout))
-        emitter = InstrumentedEmitter(state, function, layout)
+        names = _names(self.program.bodies[function.name])
+        emitter = InstrumentedEmitter(state, function, layout, names)
         self.emitted.append((function, emitter, variables))
         return emitter
 
@@ -125,3 +130,28 @@ def _declared(pou: PouSymbol) -> list[VarSymbol]:
     for block in pou.pou.blocks:
         found += [d.symbol for d in block.variables if isinstance(d.symbol, VarSymbol)]
     return list({id(v): v for v in found}.values())
+
+
+def _names(pou: PouSymbol) -> dict[tuple[int, int], tuple[str, ...]]:
+    """The variables that each statement names, as its text does; some may have no single value."""
+    assert pou.pou is not None
+    assert pou.source is not None
+    lines = pou.source.text.split("\n")
+    found = {}
+    for statement in statements(pou.pou.body):
+        named: dict[str, str] = {}
+        parts: set[int] = set()
+        for e in own_expressions(statement):
+            if isinstance(e, ast.Index | ast.Member | ast.Deref):
+                parts.add(id(e.base))
+            if id(e) in parts or e.is_constant or not isinstance(e, _NAMED):
+                continue
+            span = e.span
+            if span.line == span.end_line and 0 <= span.line < len(lines):
+                text = lines[span.line][span.column : span.end_column].strip()
+                named.setdefault(text.upper(), text)
+        found[statement.span.line + 1, statement.span.column] = tuple(named.values())[:MOST_NAMES]
+    return found
+
+
+_NAMED = (ast.Name, ast.Member, ast.Index, ast.Deref)

@@ -24,9 +24,12 @@ SITES_PREFIX = "tappet.sites."
 STATEMENT_SERVICE = "tappet_debug_statement"
 """`i32(i32 site, ptr frame)`: called where a flag is set; 0 to go on, else 1 + the site to go to."""
 
-PREVIOUS, SITES, SITE, MARK, SELF, HEADER = 0, 8, 16, 20, 24, 32
+EXIT_SERVICE = "tappet_debug_exit"
+"""`void(i32 site, ptr frame)`: the same, where a function is left."""
+
+PREVIOUS, SITES, SITE, MARK, SELF, PENDING, HEADER = 0, 8, 16, 20, 24, 32, 40
 """Members of a frame (DEBUG_FRAME of the executive): the frame of the caller, the flags of the function, the
-statement it is at, a mark of the debugger, the own instance; variables follow."""
+statement it is at, a mark of the debugger, the own instance, flow control; variables follow."""
 
 
 class StatementSite(Struct, frozen=True, array_like=True):
@@ -35,10 +38,12 @@ class StatementSite(Struct, frozen=True, array_like=True):
     line: int
     end_line: int
     column: int
-    kind: Literal["statement", "loop"]
-    """`loop`: a loop looks whether there is another pass."""
+    kind: Literal["statement", "loop", "exit"]
+    """`loop`: a loop looks whether there is another pass; `exit`: the function is left, and nothing halts."""
     loops: tuple[int, ...] = ()
     """The loops around it, the outermost first; only these can be entered by going to it from elsewhere."""
+    names: tuple[str, ...] = ()
+    """Variables in the statement, as they are written there."""
 
 
 class FrameVariable(Struct, frozen=True, array_like=True):

@@ -8,6 +8,7 @@ Reason: the normal variant stays as it is, and debugging needs nothing of the pr
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -25,6 +26,10 @@ MOST_JUMPS = 400
 _INLINED, _NEVER_INLINED = ("#0", "#6"), "#5"
 _POINTED = 1 << 61
 """The extent that an index behind a pointer is taken to have is larger than this."""
+
+
+Names = Mapping[tuple[int, int], tuple[str, ...]]
+"""What is named in a statement, by its line and column."""
 
 
 @dataclass(eq=False, slots=True)
@@ -60,9 +65,13 @@ class InstrumentedEmitter(FunctionEmitter):
 
     relies_on_proofs = False
 
-    def __init__(self, state: ModuleState, function: ir.Function, layout: FrameLayout) -> None:
+    def __init__(
+        self, state: ModuleState, function: ir.Function, layout: FrameLayout, names: Names | None = None
+    ) -> None:
         super().__init__(state, function)
         self.layout = layout
+        self.names = names or {}
+        self._exit: int | None = None
         self.sites: list[StatementSite] = []
         self.flags = f"{debug_code.SITES_PREFIX}{function.name}"
         self._homes: dict[ir.Local, ir.Place] = {}
@@ -100,6 +109,7 @@ class InstrumentedEmitter(FunctionEmitter):
         ]
         lines += self._member("sites", debug_code.SITES, f"ptr {symbol(self.flags)}")
         lines += self._member("marks", debug_code.SITE, "i64 0")
+        lines += self._member("pending", debug_code.PENDING, "i64 0")
         lines += self._member("self", debug_code.SELF, "ptr %a0" if self.function.self_type else "ptr null")
         for offset, parameter in self.layout.pointers:
             lines += self._member(f"p{offset}", offset, f"ptr %a{parameter}")
@@ -119,7 +129,14 @@ class InstrumentedEmitter(FunctionEmitter):
         super()._line(s)
         if s.statement:
             self._hook(
-                StatementSite(s.line, s.end_line or s.line, s.column, "statement", tuple(self._around))
+                StatementSite(
+                    s.line,
+                    s.end_line or s.line,
+                    s.column,
+                    "statement",
+                    tuple(self._around),
+                    self.names.get((s.line, s.column), ()),
+                )
             )
 
     def _hook(self, site: StatementSite) -> None:
@@ -130,10 +147,7 @@ class InstrumentedEmitter(FunctionEmitter):
         self.out.append(f"store i32 {number}, ptr %frame.site")
         if self.function.returns_twice:
             self.out.append("store ptr %frame, ptr %frame.cell")  # a fault may have ended callees
-        at = symbol(self.flags)
-        at = f"getelementptr inbounds (i8, ptr {at}, i64 {number})" if number else at
-        flag = self.value(f"load volatile i8, ptr {at}")
-        self.branch(self.value(f"icmp ne i8 {flag}, 0"), stop, go_on, COLD)
+        self.branch(self._flag(number), stop, go_on, COLD)
         self.start_block(stop)
         self.state.intrinsics.add(f"declare i32 @{debug_code.STATEMENT_SERVICE}(i32, ptr) cold nounwind")
         target = self.value(
@@ -146,13 +160,35 @@ class InstrumentedEmitter(FunctionEmitter):
             self.jump(go_on)
         self.start_block(go_on)
 
+    def _flag(self, number: int) -> str:
+        """Whether the flag of a statement is set."""
+        at = symbol(self.flags)
+        at = f"getelementptr inbounds (i8, ptr {at}, i64 {number})" if number else at
+        flag = self.value(f"load volatile i8, ptr {at}")
+        return self.value(f"icmp ne i8 {flag}, 0")
+
+    def _leave_hook(self) -> None:
+        """Where the function is left, flow control completes its last statement."""
+        if not self.sites:
+            return
+        if self._exit is None:
+            self._exit = len(self.sites)
+            self.sites.append(StatementSite(self.line, self.line, 0, "exit"))
+        seen, go_on = self.new_label(), self.new_label()
+        self.branch(self._flag(self._exit), seen, go_on, COLD)
+        self.start_block(seen)
+        self.state.intrinsics.add(f"declare void @{debug_code.EXIT_SERVICE}(i32, ptr) cold nounwind")
+        self.out.append(f"call void @{debug_code.EXIT_SERVICE}(i32 {self._exit}, ptr %frame){self.location}")
+        self.start_block(go_on)
+
     def _jump_table(self) -> None:
         if not self.sites or not self._jumps:
             return
         self.prologue.append("%frame.target = alloca i32")
         self.start_block("jump")
         target = self.value("load i32, ptr %frame.target")
-        cases = " ".join(f"i32 {n + 1}, label %site{n}" for n in range(len(self.sites)))
+        inside = [n for n, site in enumerate(self.sites) if site.kind != "exit"]
+        cases = " ".join(f"i32 {n + 1}, label %site{n}" for n in inside)
         self.out += [f"switch i32 {target}, label %nowhere [{cases}]", "nowhere:", "unreachable"]
 
     def fixed_order(self) -> Literal["", "try", "size"]:
@@ -217,6 +253,7 @@ class InstrumentedEmitter(FunctionEmitter):
 
     def _return_(self, s: ir.Return) -> None:
         function = self.function
+        self._leave_hook()
         value = ""
         if function.result is not ir.VOID:
             assert function.result_local is not None

@@ -22,6 +22,7 @@ from tappet.runtime.debugger.shapes import (
     BreakpointOrder,
     Command,
     DebugState,
+    FlowSnapshot,
     Frame,
     Halt,
     Reason,
@@ -36,6 +37,7 @@ from tappet.runtime.errors import DebugError, UnknownBreakpointError
 from tappet.runtime.link import LinkError
 
 if TYPE_CHECKING:
+    from tappet.runtime.debugger.flow import Flow
     from tappet.runtime.plc import SoftPlc
 
 _REASONS: dict[int, Reason] = {1: "breakpoint", 2: "step", 3: "pause", 4: "data", 5: "run_to"}
@@ -57,6 +59,9 @@ class Debugger:
         self._sequence = 0
         self._halts = 0
         self._kept = False
+        self._watched: frozenset[str] = frozenset()
+        """Objects under flow control."""
+        self._flow: Flow | None = None
 
     # -- state ---------------------------------------------------------------------------------------
 
@@ -159,12 +164,13 @@ class Debugger:
                 self._halts = 0
                 for wanted in self._wanted.values():
                     wanted.place(variant)
+                self._place_flow()
                 self._changed()
             return self.state()
 
     def dropped(self) -> None:
         """The application has become another one: nothing is placed any more."""
-        self._halts = 0
+        self._halts, self._flow = 0, None
         for wanted in list(self._wanted.values()):
             wanted.sites, wanted.watched = [], None
             wanted.reason = "the instrumented variant of the application is not loaded"
@@ -176,7 +182,7 @@ class Debugger:
 
     def _needs(self, variant: Variant) -> bool:
         """Whether tasks have to run the variant."""
-        asked = self._kept or variant.any_halted or variant.any_wanted
+        asked = self._kept or bool(self._watched) or variant.any_halted or variant.any_wanted
         return asked or any(w.active for w in self._wanted.values())
 
     def keep_active(self, wanted: bool) -> None:
@@ -196,7 +202,7 @@ class Debugger:
         variant.context["haltOthers"] = int(self._settings.other_tasks == "halt")
         variant.context["safeOutputs"] = int(self._settings.outputs == "safe")
         needed = self._needs(variant)
-        variant.arm(table.sites, table.watches)
+        variant.arm(table.sites, table.watches, self._flow.armed if self._flow is not None else ())
         if needed and not variant.active:
             variant.activate()
         elif not needed and variant.active:
@@ -394,6 +400,35 @@ class Debugger:
                 if self.variant is not variant or task in variant.halted():
                     return
             time.sleep(0.001)
+
+    # -- flow control --------------------------------------------------------------------------------
+
+    def set_flow(self, objects: list[str]) -> None:
+        """Record which statements of these objects each cycle executes; of none with an empty list."""
+        with self._lock:
+            self._need()
+            self._watched = frozenset(objects)
+            self._place_flow()
+            self._changed()
+
+    def _place_flow(self) -> None:
+        variant = self.variant
+        self._flow = None
+        if variant is None:
+            return
+        if self._watched:
+            from tappet.runtime.debugger.flow import Flow  # the parser, which few runtimes need
+
+            self._flow = Flow(variant, self._watched)
+        address = self._flow.table.address if self._flow is not None else 0
+        variant.application.tasks.publish(variant.context.place("pFlow"), address, self._flow)
+
+    def flow(self, object_id: str) -> FlowSnapshot:
+        """What a cycle has executed of an object under flow control."""
+        with self._lock:
+            if self._flow is None or object_id not in self._watched:
+                raise DebugError("the object is not under flow control")
+            return self._flow.snapshot(object_id)
 
     # -- stacks --------------------------------------------------------------------------------------
 

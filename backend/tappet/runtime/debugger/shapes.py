@@ -147,3 +147,29 @@ class Variables(Struct, frozen=True):
     """All variables of a frame."""
 
     variables: list[Variable]
+
+
+class FlowValue(Struct, frozen=True):
+    """A variable that a statement names, right after it."""
+
+    name: str
+    literal: str
+
+
+class FlowStatement(Struct, frozen=True):
+    """A statement that was executed."""
+
+    line: int
+    end_line: int
+    element: str | None
+    part: str | None
+    count: Annotated[int, Meta(description="How often, in this cycle.")]
+    values: Annotated[list[FlowValue], Meta(description="After its last execution.")]
+
+
+class FlowSnapshot(Struct, frozen=True):
+    """What one cycle has executed of an object."""
+
+    object_id: str
+    cycle: Annotated[int, Meta(description="0: no cycle is complete yet.")]
+    statements: list[FlowStatement]

@@ -7,6 +7,7 @@ that it is in. Its memory goes when no task can be in it any more. Cost when it 
 from __future__ import annotations
 
 from bisect import bisect_right
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from tappet.codegen.debug_code import SITES_PREFIX, DebugCode, DebugFunction, StatementSite
@@ -21,6 +22,7 @@ KEPT_STACK = 256 << 10
 """Bytes of a task's stack that are kept after a fault."""
 ALL_SITES = 0x80
 AT_BREAKPOINT = 0x01
+AT_FLOW = 0x02
 
 
 class Variant:
@@ -135,12 +137,14 @@ class Variant:
         """Whether a task stands at a statement."""
         return any(task["halted"] for task in self.tasks)
 
-    def arm(self, sites: set[int], everywhere: bool) -> None:
+    def arm(self, sites: set[int], everywhere: bool, flow: Iterable[int] = ()) -> None:
         """Let the executive be called at these statements, or at all."""
         every = ALL_SITES if everywhere or self.any_wanted else 0
         flags = bytearray([every]) * self.count
         for number in sites:
             flags[number] |= AT_BREAKPOINT
+        for number in flow:
+            flags[number] |= AT_FLOW
         write_memory(self.flags.address, bytes(flags))
         if not every and self.any_wanted:  # a task that halts may ask the others meanwhile
             write_memory(self.flags.address, bytes([ALL_SITES | AT_BREAKPOINT]) * self.count)
@@ -167,8 +171,9 @@ def _next_site(sites: tuple[StatementSite, ...], line: int) -> int | None:
     low, high = min(s.line for s in sites), max(s.end_line for s in sites)
     if line > high:
         return None
-    later = [(s.line, s.kind != "statement", n) for n, s in enumerate(sites) if s.line >= line]
+    possible = [(n, s) for n, s in enumerate(sites) if s.kind != "exit"]
+    later = [(s.line, s.kind != "statement", n) for n, s in possible if s.line >= line]
     if later:
         return min(later)[2]
-    around = [(s.line, n) for n, s in enumerate(sites) if low <= s.line <= line <= s.end_line]
+    around = [(s.line, n) for n, s in possible if low <= s.line <= line <= s.end_line]
     return max(around)[1] if around else None

@@ -28,7 +28,7 @@ STRUCTURES = (
     "EXPRESSION_STEP", "EXPRESSION", "EXPRESSION_MEMORY", "TRACE_EXPRESSION", "TRACE_RECORD", "TRACE_LIST",
     "DESCRIBED_TYPE", "DESCRIBED_MEMBER", "DESCRIBED_ROOT", "HEAP_ARENA", "HEAP_BLOCK", "CRASH_RECORD",
     "DEBUG_FRAME", "BREAKPOINT", "DATA_BREAKPOINT", "BREAKPOINT_TABLE", "DEBUG_CONTEXT", "DEBUG_TASK",
-    "DEBUG_LOG", "DEBUG_LOG_ENTRY",
+    "DEBUG_LOG", "DEBUG_LOG_ENTRY", "FLOW_TABLE", "FLOW_RESULT",
 )  # fmt: skip
 """Structures of types.st that Python fills or reads."""
 
@@ -53,7 +53,7 @@ SERVICES = (
     "tappet_keep_fault", "tappet_rethrow", "tappet_exception_code",
     "tappet_watchdog_disable", "tappet_watchdog_enable", "tappet_set_aside", "tappet_take_back",
     "tappet_unix_ns", "tappet_task_facts", "tappet_application_facts", "tappet_log", "tappet_types",
-    "tappet_debug_statement", *FILE_SERVICES, *HEAP_SERVICES,
+    "tappet_debug_statement", "tappet_debug_exit", *FILE_SERVICES, *HEAP_SERVICES,
 )  # fmt: skip
 """What compiled applications and libraries may call."""
 

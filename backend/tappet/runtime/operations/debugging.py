@@ -13,6 +13,7 @@ from tappet.runtime.debugger.shapes import (
     BreakpointOrder,
     Command,
     DebugState,
+    FlowSnapshot,
     Settings,
     Spot,
     Stack,
@@ -231,3 +232,34 @@ class WriteVariable(Operation[Variable], frozen=True):
     def run(self, plc: SoftPlc) -> Variable:
         """At once."""
         return plc.debugger.write(self.task, self.frame, self.name, self.value)
+
+
+class SetFlow(Operation[None], frozen=True):
+    """Record which statements of these objects a cycle executes; an empty list ends that."""
+
+    op: ClassVar[str] = "debug_set_flow"
+    rest: ClassVar[Rest | None] = Rest(
+        "PUT",
+        "/debug/flow",
+        "engineer",
+        lambda order: Fact("flow-control", new_value=_written(order.object_ids)),
+        tag=TAG,
+        variant=True,
+    )
+    object_ids: Annotated[list[Text], Meta(max_length=100)]
+
+    def run(self, plc: SoftPlc) -> None:
+        """From the next cycle on."""
+        plc.debugger.set_flow(self.object_ids)
+
+
+class GetFlow(Operation[FlowSnapshot], frozen=True):
+    """The executed statements of an object under flow control, all of one cycle."""
+
+    op: ClassVar[str] = "debug_flow"
+    rest: ClassVar[Rest | None] = Rest("GET", "/debug/flow", "viewer", None, tag=TAG)
+    object_id: Text
+
+    def run(self, plc: SoftPlc) -> FlowSnapshot:
+        """Of the last complete cycle, or of the present one while the task is halted."""
+        return plc.debugger.flow(self.object_id)
