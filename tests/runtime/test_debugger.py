@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import pytest
-from debugger_programs import add, halted, line, loaded, step, until, value
+from debugger_programs import add, halted, line, loaded, spot, step, until, value
 
 from tappet.runtime.plc import SoftPlc
 
@@ -147,8 +147,6 @@ def test_pause_and_run_to(plc: SoftPlc) -> None:
     plc.debugger.control("pause")
     assert line(plc) == 30
     assert halted(plc).halted[0].reason == "pause"
-    from debugger_programs import spot
-
     state = plc.debugger.control("run_to", None, spot(22))
     assert state.halted[0].reason == "run_to"
     assert line(plc) == 22
@@ -156,3 +154,66 @@ def test_pause_and_run_to(plc: SoftPlc) -> None:
     plc.debugger.control("continue")
     before = value(plc, "PLC_PRG.i")
     until(lambda: value(plc, "PLC_PRG.i") > before + 1)
+
+
+IL = """PROGRAM PLC_PRG
+VAR
+    i : DINT;
+    j : DINT;
+END_VAR
+LD i
+ADD 1
+ST i
+LD i
+MUL 2
+ST j
+GT 6
+JMPC over
+LD 7
+ST j
+over:
+LD j
+ST j
+END_PROGRAM
+"""
+
+
+def test_steps_in_il() -> None:
+    """From LD to LD and JMP; what lies between belongs to them."""
+    plc = loaded(IL)
+    try:
+        add(plc, 6)
+        plc.start()
+        assert line(plc) == 6
+        plc.debugger.remove(None)
+        seen = [step(plc, "step_over") for _ in range(12)]
+        first = seen[: seen.index(6)]
+        assert first == sorted(first)
+        assert {9, 13, 14, 17} <= set(first), "not more than 6 yet, so the jump is not taken"
+        assert value(plc, "PLC_PRG.i") >= 2
+    finally:
+        plc.close()
+
+
+def test_a_halted_task_on_virtual_time() -> None:
+    """Virtual time stands still while the task is halted; what is advanced goes on behind it."""
+    from threading import Thread
+
+    plc = SoftPlc(None, virtual=True)
+    loaded(TEXT, plc=plc)
+    try:
+        add(plc, 31)
+        plc.start()
+        tasks = plc.loaded().tasks
+        ten_cycles = Thread(target=lambda: tasks.run_virtual(100_000_000))
+        ten_cycles.start()
+        for cycle in range(1, 11):
+            halted(plc)
+            assert value(plc, "PLC_PRG.i") == cycle
+            assert plc.loaded().contexts.application["virtualNow"] == (cycle - 1) * 10_000_000
+            plc.debugger.control("continue")
+        ten_cycles.join()
+        assert plc.debugger.halted_tasks() == ()
+        assert value(plc, "PLC_PRG.i") == 10
+    finally:
+        plc.close()

@@ -149,7 +149,8 @@ def _names(pou: PouSymbol) -> dict[tuple[int, int], tuple[str, ...]]:
             span = e.span
             if span.line == span.end_line and 0 <= span.line < len(lines):
                 text = lines[span.line][span.column : span.end_column].strip()
-                named.setdefault(text.upper(), text)
+                if text:
+                    named.setdefault(text.upper(), text)
         found[statement.span.line + 1, statement.span.column] = tuple(named.values())[:MOST_NAMES]
     return found
 

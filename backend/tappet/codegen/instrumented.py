@@ -71,6 +71,7 @@ class InstrumentedEmitter(FunctionEmitter):
         super().__init__(state, function)
         self.layout = layout
         self.names = names or {}
+        self._halts: set[tuple[int, int]] = set()
         self._exit: int | None = None
         self.sites: list[StatementSite] = []
         self.flags = f"{debug_code.SITES_PREFIX}{function.name}"
@@ -127,7 +128,9 @@ class InstrumentedEmitter(FunctionEmitter):
 
     def _line(self, s: ir.Line) -> None:
         super()._line(s)
-        if s.statement:
+        place = (s.line, s.column)
+        if s.statement and place not in self._halts:  # of what one place stands for, only the first one halts
+            self._halts.add(place)
             self._hook(
                 StatementSite(
                     s.line,
