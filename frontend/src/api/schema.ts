@@ -2030,6 +2030,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/debug/flow": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Debug Flow
+         * @description The executed statements of an object under flow control, all of one cycle.
+         */
+        get: operations["debug_flow"];
+        /**
+         * Debug Set Flow
+         * @description Record which statements of these objects a cycle executes; an empty list ends that.
+         */
+        put: operations["debug_set_flow"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/debug/settings": {
         parameters: {
             query?: never;
@@ -5225,6 +5249,38 @@ export interface components {
             period: number;
             /** @description Bytes they take. */
             used: number;
+        };
+        /**
+         * FlowSnapshot
+         * @description What one cycle has executed of an object.
+         */
+        FlowSnapshot: {
+            /** @description 0: no cycle is complete yet. */
+            cycle: number;
+            object_id: string;
+            statements: components["schemas"]["FlowStatement"][];
+        };
+        /**
+         * FlowStatement
+         * @description A statement that was executed.
+         */
+        FlowStatement: {
+            /** @description How often, in this cycle. */
+            count: number;
+            element: string | null;
+            end_line: number;
+            line: number;
+            part: string | null;
+            /** @description After its last execution. */
+            values: components["schemas"]["FlowValue"][];
+        };
+        /**
+         * FlowValue
+         * @description A variable that a statement names, right after it.
+         */
+        FlowValue: {
+            literal: string;
+            name: string;
         };
         /**
          * FolderObject
@@ -8564,6 +8620,13 @@ export interface components {
          */
         SetDebugSettings: {
             settings: components["schemas"]["Settings"];
+        };
+        /**
+         * SetFlow
+         * @description Record which statements of these objects a cycle executes; an empty list ends that.
+         */
+        SetFlow: {
+            object_ids: string[];
         };
         /**
          * Settings
@@ -14973,6 +15036,90 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["DebugState"];
                 };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_flow: {
+        parameters: {
+            query: {
+                object_id: string;
+            };
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FlowSnapshot"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_set_flow: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SetFlow"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description The request was refused */
             422: {
