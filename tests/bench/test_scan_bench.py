@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tappet.bench import scan
+from tappet.bench import instrumented, scan
 from tappet.bench.native import gcc_version
 
 
@@ -20,3 +20,7 @@ def test_both_versions_agree(name: str, tmp_path: Path):
 
 def test_five_more_than_the_ten_of_the_design():
     assert len(scan.names()) >= 15
+
+
+def test_the_instrumented_variant_has_a_figure():
+    assert instrumented.ratio(scan.WORKLOADS / "sequencers.st") > 0

@@ -65,6 +65,7 @@ class ApplicationCode:
     def drop_variant(self) -> None:
         """The instrumented variant is no more that of the code; it goes once no task is in it."""
         if self.variant is not None:
+            self.variant.detach()
             self.tasks.retire(self.variant, self.variant.close)
             self.variant = None
 

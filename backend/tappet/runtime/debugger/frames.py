@@ -116,7 +116,13 @@ class FrameValues:
         this, function = self._activation.this, self._activation.function
         if not this or function.this is None:
             return None
-        return path_at(self._symbols, Place(this - self._image.address, self._types[function.this].size))
+        offset, known = this - self._image.address, self._types[function.this]
+        found = path_at(self._symbols, Place(offset, known.size))
+        if found is not None:
+            return found
+        larger = {t.size for t in self._symbols.types if t.kind == "fb" and t.size > known.size}
+        paths = (path_at(self._symbols, Place(offset, size)) for size in sorted(larger))
+        return next((path for path in paths if path is not None), None)  # of a derived block
 
     def all(self) -> list[Variable]:
         """Locals and parameters, then the members of the own instance or program."""

@@ -154,13 +154,17 @@ class Variant:
         """Whether a task is to halt at a statement that is not known."""
         return any(task["pause"] or task["mode"] for task in self.tasks)
 
-    def close(self) -> None:
-        """Release it; no task is in its code."""
+    def detach(self) -> None:
+        """Tasks know of no debugger any more; one that is in this code runs through it."""
         contexts = self.application.contexts
         if contexts.application["pDebug"] == self.context.address:
             self.executive.store(contexts.application.place("pDebug"), 0)
             for task in contexts.tasks:
                 self.executive.store(task.place("pDebug"), 0)
+
+    def close(self) -> None:
+        """Release it; no task is in its code, nor has it met the debugger in this cycle."""
+        self.detach()
         self.linked.close()
         self.flags.close()
 
