@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 
+from tappet.codegen import debug_build
 from tappet.codegen.build import BuildSession, build_application
 from tappet.codegen.debug_build import instrument
 from tappet.codegen.debug_code import DebugCode
@@ -89,13 +90,17 @@ _NAMED = [pytest.param(f, id=str(f.relative_to(FOLDER).with_suffix(""))) for f i
 
 
 @pytest.mark.parametrize("path", _NAMED[::12])
-def test_instrumented(path: Path) -> None:
+@pytest.mark.parametrize("large", [0, 1 << 30], ids=["O0", "O1"])
+def test_instrumented(path: Path, large: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(debug_build, "LARGE", large)
     check_instrumented(path)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("path", _NAMED)
-def test_every_file_instrumented(path: Path) -> None:
+@pytest.mark.parametrize("large", [0, 1 << 30], ids=["O0", "O1"])
+def test_every_file_instrumented(path: Path, large: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(debug_build, "LARGE", large)
     check_instrumented(path)
 
 

@@ -77,7 +77,8 @@ def compile_order(body: str) -> dict[str, Any]:
     return {
         "key": "p/a", "application": "A", "project": "P", "sources": [source], "tasks": [],
         "libraries": [], "previous": None, "cache": "",
-        "static": {"rules": {}, "prefixes": {}, "limits": {}}, "check_only": False, "fresh": False,
+        "static": {"rules": {}, "prefixes": {}, "limits": {}}, "check_only": False, "instrumented": False,
+        "fresh": False,
         "disabled_warnings": (),
         "heap": {"limit": 1 << 16, "poison": False},
     }  # fmt: skip

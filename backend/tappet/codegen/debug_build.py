@@ -23,8 +23,9 @@ from tappet.lang.walk import own_expressions, statements
 
 MOST_NAMES = 8
 """Variables of a statement whose values flow control keeps; FLOW_RESULT has room for so many."""
-LEVEL = 1
-"""Optimisation of the variant: it is compiled while somebody waits."""
+LARGE = 6_000
+"""Applications of more weight are compiled without optimisation: somebody waits, and LLVM would take three
+times as long as for the normal code."""
 
 
 def instrument(generated: Generated, cache: ObjectCache | None = None) -> DebugCode:
@@ -34,7 +35,8 @@ def instrument(generated: Generated, cache: ObjectCache | None = None) -> DebugC
     work = _Instrumentation(program, _copied(generated.laid.table))
     module, parts = generated.lowered.module, generated.parts
     parallel = len(parts) > 2
-    compilation = Compilation(cache or ObjectCache(None), OptimiseOptions(level=LEVEL), parallel)
+    level = 0 if sum(function.weight for function in module.functions.values()) > LARGE else 1
+    compilation = Compilation(cache or ObjectCache(None), OptimiseOptions(level=level), parallel)
     options = EmitOptions(triple=generated.package.triple)
     for part in parts:
         copies = [name for name in part.copies if not work.is_instrumented(name)]
