@@ -55,6 +55,7 @@ from tappet.server.tuning import routes as routes_tuning
 from tappet.server.unit_tests import routes as routes_tests
 from tappet.server.users import routes as routes_users
 from tappet.server.values import routes as routes_values
+from tappet.server.versions import routes as routes_versions
 from tappet.server.views import routes as routes_views
 
 API = "/api/v1"
@@ -71,6 +72,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_build.router,
     routes_source.router,
     routes_build.all_router,
+    routes_versions.router,
     routes_static_analysis.router,
     routes_tests.router,
     routes_libraries.router,

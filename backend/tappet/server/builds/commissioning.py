@@ -104,11 +104,19 @@ class Commissioning:
         return await self.builder.check(await run_in_threadpool(read))
 
     async def compare(
-        self, project_id: str, application_id: str, link: RuntimeLink, language: Language = "en"
+        self,
+        project_id: str,
+        application_id: str,
+        link: RuntimeLink,
+        language: Language = "en",
+        project: Project | None = None,
     ) -> LoginReport:
         """What login finds; builds when the loaded application is one of this project. Messages of the
-        compiler are in the words of `language`."""
+        compiler are in the words of `language`. `project` is an earlier state of the project that is compared
+        in its place."""
         application = await self.application(project_id, application_id)
+        if project is not None:
+            application = await run_in_threadpool(Application.of, project_id, project, application_id)
         if not link.connected:
             link.loaded_symbols()  # raises the problem that says since when
         info = link.info

@@ -62,6 +62,10 @@ class PackageStore:
                 return read_zip(path.read_bytes()), at
         return None
 
+    def has_source(self, code_id: str) -> bool:
+        """Whether the project that this code was built from is kept."""
+        return bool(_ID.fullmatch(code_id)) and any(self._folder.glob(f"*.*.{code_id}{SOURCE}"))
+
     def find(self, code_id: str) -> StoredPackage | None:
         """The package with this code, whatever application it was built from."""
         if not _ID.fullmatch(code_id):

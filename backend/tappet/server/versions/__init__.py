@@ -1,0 +1,1 @@
+"""Versions of an application in a runtime: who brought which when, and back to an earlier one."""
