@@ -336,6 +336,7 @@ ALARM: FilePayload = {
     "login.buildErrors",
     "runtime.choose",
     "command.pageSetup",
+    "versions.title",
 )
 def online(ui: Ui, server: Server) -> Iterator[str]:
     """What is asked before something happens to a machine."""
@@ -355,6 +356,7 @@ def online(ui: Ui, server: Server) -> Iterator[str]:
         ("command.reset.origin", "reset.origin.title"),
         ("command.download", "download.title"),
         ("command.sourceDownload", "source.downloadTitle"),
+        ("command.versions", "versions.title"),
         ("command.pageSetup", "command.pageSetup"),  # which nobody can make while logged in
     ):
         ui.command(command)

@@ -7,12 +7,12 @@ import re
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 
 from .api import example, stored, write
 from .conftest import Server, new_profile, start_page
 from .ui import pattern
-from .workbench import change_online, log_in, open_object, open_project, status_bar
+from .workbench import change_online, choose_menu, log_in, open_object, open_project, status_bar, watch
 
 pytestmark = pytest.mark.e2e
 
@@ -25,6 +25,11 @@ def _edited(page: Page, server: Server) -> str:
     project = example(page, server)
     write(page, server, project, "GVL_Line", OLD, NEW)
     return project
+
+
+def _relation(page: Page) -> Locator:
+    """What the status bar says when the project can be changed online."""
+    return status_bar(page).get_by_role("button", name=re.compile("online change", re.IGNORECASE))
 
 
 def test_the_status_bar_tells_before_the_login_and_leads_to_the_variables(page: Page, server: Server) -> None:
@@ -72,12 +77,40 @@ def test_the_running_application_is_compared_object_by_object(page: Page, server
     log_in(page)
     project = _edited(page, server)
     try:
-        status_bar(page).get_by_role("button", name=re.compile("online change", re.IGNORECASE)).click()
+        _relation(page).click()
         page.get_by_role("button", name=re.compile("^Compare with what runs")).click()
         dialog = page.get_by_role("dialog")
         dialog.get_by_text("GVL_Line").first.click()
         expect(dialog).to_contain_text("nBatches")
         page.keyboard.press("Escape")
+    finally:
+        write(page, server, project, "GVL_Line", NEW, OLD)
+
+
+def test_back_to_the_version_before(page: Page, server: Server) -> None:
+    open_project(page)
+    open_object(page, "PLC_PRG")
+    log_in(page)
+    project = _edited(page, server)
+    try:
+        expect(_relation(page)).to_be_visible()
+        change_online(page)
+        row = watch(page, "GVL_Line.nBatches")
+        expect(row).to_contain_text("12")
+        choose_menu(page, "Online", "Versions in the controller")
+        dialog = page.get_by_role("dialog", name="Versions in the controller")
+        versions = dialog.get_by_role("grid", name="Versions in the controller")
+        expect(versions.get_by_role("row").filter(has_text="Runs now")).to_have_count(1)
+        changes = dialog.get_by_role("grid", name="Changed variables")
+        expect(changes.get_by_role("row").filter(has_text="GVL_Line.nBatches")).to_contain_text("Lost")
+        if os.environ.get("TAPPET_PICTURES"):
+            page.screenshot(path=Path(os.environ["TAPPET_PICTURES"]) / "online-versions.png")
+        dialog.get_by_role("button", name="Go back by online change").click()
+        expect(dialog).to_have_count(0)
+        expect(page.get_by_text("The earlier version is back").first).to_be_visible()
+        expect(row).not_to_contain_text("12")
+        expect(status_bar(page).get_by_text("running")).to_be_visible()
+        assert "nBatches" in stored(page, server, project, "GVL_Line")["data"]["declaration"]
     finally:
         write(page, server, project, "GVL_Line", NEW, OLD)
 

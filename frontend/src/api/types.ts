@@ -54,6 +54,8 @@ export type LoadOfTasks = Schemas['LoadOfTasks'];
 export type LogEntry = Schemas['LogEntry'];
 export type LoginRelation = Schemas['Relation'];
 export type LoginAnswer = Schemas['LoginReport'];
+/** One that was brought into a controller. */
+export type RuntimeVersion = Schemas['Version'];
 
 export type TestReport = Schemas['TestReport'];
 export type TestRun = Schemas['TestRun'];

@@ -18,6 +18,7 @@ import { registerLibraryCommands } from './commands/libraries';
 import { registerOnlineCommands } from './commands/online';
 import { registerProjectCommands } from './commands/project';
 import { registerSourceCommands } from './commands/source';
+import { registerVersionCommands } from './commands/versions';
 import { registerStaticAnalysisCommands } from './commands/staticAnalysis';
 import { registerToolsCommands } from './commands/tools';
 import { registerViewCommands } from './commands/view';
@@ -123,6 +124,7 @@ export function registerWorkbench(): void {
   registerProjectCommands();
   registerOnlineCommands();
   registerSourceCommands();
+  registerVersionCommands();
   registerLibraryCommands();
   registerStaticAnalysisCommands();
   registerToolsCommands();
