@@ -18,6 +18,7 @@ from tappet.runtime.errors import NoApplicationError, PlcError
 from tappet.runtime.exception_report import CallFrame, ExceptionReport
 from tappet.runtime.flight import FlightStatus
 from tappet.runtime.forces import Force, PlacedValue
+from tappet.runtime.image import ImageMemory
 from tappet.runtime.logbook import LogEntry
 from tappet.runtime.operations import registry
 from tappet.runtime.operations.declaration import Reply, WireOperation
@@ -93,6 +94,9 @@ class FakePlc:
     clients: list[FakeClient] = field(default_factory=list)
     recorders: list[FakeRecorder] = field(default_factory=list)
     refuses_recorders: bool = False
+    size: int = 0
+    reserved: int = 1 << 20
+    """Bytes for online changes."""
     cycle: int = 0
     past: dict[int, bytes] = field(default_factory=dict)
     frozen: bool = False
@@ -117,6 +121,9 @@ class FakePlc:
             recorder.end()
         self.notify("lost")
         self.clients.clear()
+
+    def image_memory(self) -> ImageMemory | None:
+        return ImageMemory(self.size, self.size, self.size + self.reserved) if self.downloads else None
 
     def symbols(self) -> SymbolMap:
         if self.symbol_map is None:
@@ -337,6 +344,7 @@ class FakeClient:
         plc.image = bytearray(parsed.initial_image.ljust(IMAGE_SIZE, b"\0"))
         if mode == "download":
             plc.state = "stop"
+            plc.size = parsed.image_size
         plc.notify("application")
         return plc.info()
 

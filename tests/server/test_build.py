@@ -130,6 +130,7 @@ def test_relations_from_foreign_to_online_change(
         "reasons": [],
         "changes": [],
         "changes_omitted": 0,
+        "reserve": None,
         "loaded_project": None,
     }
 
@@ -140,6 +141,7 @@ def test_relations_from_foreign_to_online_change(
     project.edit("PROGRAM PLC_PRG\nVAR\n  n : INT := 5;\n  m : DINT;\nEND_VAR", "n := n + 2;")
     data = _login(admin, project, runtime_id)
     assert data["relation"] == "online_change"
+    assert (data["reserve"]["used"], data["reserve"]["reserved"]) == (0, 1 << 20)
     assert "PLC_PRG" in data["reasons"][0]
     assert [(v["path"], v["effect"], v["reason"], v["type"]) for v in data["changes"]] == [
         ("PLC_PRG.n", "moved", "place", "INT"),

@@ -93,6 +93,7 @@ def project_applications(project: Project) -> list[ApplicationInput]:
                 static=_static(project, application.id),
                 disabled_warnings=project_sources.disabled_warnings(project, application.id),
                 heap=project_sources.heap(project, application.id),
+                reserve=project_sources.change_reserve(project, application.id),
                 once=True,
             ),
         )

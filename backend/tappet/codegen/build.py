@@ -21,7 +21,7 @@ from tappet.core.edits.edit import Edit
 from tappet.core.internal_error import At, InternalError, reason_of
 from tappet.core.program import CONVERSION_LIBRARY, LoweringError
 from tappet.iec.heap import DEFAULT_HEAP, HeapSettings
-from tappet.iec.memory import ImageTooLargeError
+from tappet.iec.memory import DEFAULT_RESERVE, ChangeReserve, ImageTooLargeError
 from tappet.iec.source import source_maps
 from tappet.iec.task import Task
 from tappet.lang.analysis.libraries import LibrarySnapshot, own_results, read_program
@@ -74,6 +74,8 @@ class BuildOptions:
     """Codes of warnings that are not reported."""
     heap: HeapSettings = DEFAULT_HEAP
     """The memory of `__NEW`."""
+    reserve: ChangeReserve = DEFAULT_RESERVE
+    """The memory for online changes, which the runtime sets aside."""
     once: bool = False
     """The process builds this application no more: library texts that it cannot reach are left out."""
 
@@ -189,6 +191,7 @@ def build_application(
         result.package.source_maps = source_maps(texts)
         result.package.facts.project = options.project
         result.package.facts.compiled = options.compiled
+        result.package.facts.reserve = (options.reserve.percent, options.reserve.least)
     return result
 
 

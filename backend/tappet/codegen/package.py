@@ -16,7 +16,7 @@ from tappet.codegen.converted_values import Conversion, convert
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.codegen.symbol_types import Bit
 from tappet.iec.heap import DEFAULT_HEAP
-from tappet.iec.memory import MAX_IMAGE
+from tappet.iec.memory import DEFAULT_RESERVE, MAX_IMAGE
 from tappet.iec.places import SourceMap
 from tappet.iec.task import Watchdog
 
@@ -128,6 +128,8 @@ class Facts(Struct):
     """Bytes that __NEW may take in all."""
     life_cycle: dict[str, tuple[str, ...]] = field(default_factory=dict)
     """Function block types, in upper case, with FB_INIT, FB_REINIT or FB_EXIT, and which of them."""
+    reserve: tuple[Natural, Natural] = (DEFAULT_RESERVE.percent, DEFAULT_RESERVE.least)
+    """Memory to set aside for online changes: percent of the data, bytes at least."""
     heap_poison: bool = DEFAULT_HEAP.poison
     """Whether memory is filled when __DELETE gives it back."""
 

@@ -2,8 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 MAX_IMAGE = 1 << 30
 """Largest accepted memory image in bytes; the image has to lie below 2 GiB."""
+
+KIB = 1024
+LARGEST_RESERVE_KIB = MAX_IMAGE // KIB
+
+
+@dataclass(frozen=True, slots=True)
+class ChangeReserve:
+    """Memory that a download sets aside for what online changes add; it counts only when it is used."""
+
+    percent: int = 100
+    """Of the data of the application."""
+    least: int = 1 << 20
+    """Bytes at least."""
+
+    def room(self, size: int) -> int:
+        """Bytes beside `size` bytes of data."""
+        return max(0, min(max(size * self.percent // 100, self.least), MAX_IMAGE - size))
+
+
+DEFAULT_RESERVE = ChangeReserve()
 
 STACK_SIZE = 1 << 20
 """Stack of a task in bytes: variables of functions and methods, and VAR_TEMP."""

@@ -10,6 +10,7 @@ from operator import is_
 from typing import Any
 
 from tappet.iec.heap import HeapSettings
+from tappet.iec.memory import ChangeReserve
 from tappet.iec.source import Scope, Source
 from tappet.iec.task import Task
 from tappet.project.data import UnknownData
@@ -213,6 +214,11 @@ def disabled_warnings(project: Project, application_id: str) -> frozenset[str]:
 def heap(project: Project, application_id: str) -> HeapSettings:
     """The settings of the memory that `__NEW` of an application takes from."""
     return _application(project, application_id).data_as(ApplicationData).heap.settings
+
+
+def change_reserve(project: Project, application_id: str) -> ChangeReserve:
+    """The memory that a download of an application sets aside for online changes."""
+    return _application(project, application_id).data_as(ApplicationData).change_reserve.settings
 
 
 def source_of(project: Project, object_id: str) -> Source | None:

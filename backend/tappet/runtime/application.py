@@ -8,6 +8,7 @@ from pathlib import Path
 
 from tappet.codegen.constants import constants_within
 from tappet.codegen.package import EXIT_SYMBOL, INIT_SYMBOL, CodePackage
+from tappet.iec.memory import ChangeReserve
 from tappet.runtime.application_code import ApplicationCode
 from tappet.runtime.contexts import FAULTED, RUNNING, STUCK_LIMIT_S, Contexts, IoBuffers, queue_slot
 from tappet.runtime.executive.loader import Executive
@@ -59,7 +60,7 @@ class LoadedApplication(ApplicationCode):
         self.package = package
         self.virtual = virtual
         self.stuck_limit_s = stuck_limit_s
-        self.image = Image(package.image_size)
+        self.image = Image(package.image_size, ChangeReserve(*package.facts.reserve))
         self.heap = ApplicationHeap(executive, package.facts.heap_limit, poison=package.facts.heap_poison)
         try:
             self.code = self.link(package)

@@ -3,25 +3,35 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 
-from tappet.iec.memory import MAX_IMAGE
+from tappet.iec.memory import DEFAULT_RESERVE, MAX_IMAGE, ChangeReserve
 from tappet.runtime.posix import Mapping, map_memory, pages, read_memory, write_memory
-
-_LEAST_GROWTH, _MOST_GROWTH = 1 << 20, 64 << 20
-"""Room for online changes, bytes: as much again as the application has, within these bounds."""
 
 
 class ImageError(RuntimeError):
     """The image cannot hold the application."""
 
 
+@dataclass(frozen=True, slots=True)
+class ImageMemory:
+    """How full the memory of the variables is, in bytes."""
+
+    size: int
+    """Taken now."""
+    downloaded: int
+    """Taken by the last download; what is beyond is what online changes have added."""
+    capacity: int
+    """What there may be before a download is needed."""
+
+
 class Image:
     """A memory file, mapped shared. Its address stays the same until it is closed."""
 
-    def __init__(self, size: int) -> None:
+    def __init__(self, size: int, reserve: ChangeReserve = DEFAULT_RESERVE) -> None:
         if size > MAX_IMAGE:
             raise ImageError(f"image of {size} bytes; at most {MAX_IMAGE} are possible")
-        reserved = pages(size + min(max(size, _LEAST_GROWTH), _MOST_GROWTH))
+        reserved = pages(size + reserve.room(size))
         self._fd = os.memfd_create("tappet-image", os.MFD_CLOEXEC)
         try:
             os.ftruncate(self._fd, reserved)
@@ -30,6 +40,8 @@ class Image:
             os.close(self._fd)
             raise ImageError(f"no memory for an image of {size} bytes: {error}") from error
         self.size = size
+        self.downloaded = size
+        """Bytes at the download: what is beyond them takes of the reserve."""
         self._accessible = reserved
         self._restrict(size)
 
@@ -47,6 +59,10 @@ class Image:
     def capacity(self) -> int:
         """Largest size it can grow to in place."""
         return self._mapping.size
+
+    def memory(self) -> ImageMemory:
+        """As of now."""
+        return ImageMemory(self.size, self.downloaded, self.capacity)
 
     def resize(self, size: int) -> None:
         """Grow or shrink for an online change; the address stays. ImageError when it does not fit."""

@@ -32,7 +32,7 @@ from tappet.runtime.exception_report import ExceptionReport, summary
 from tappet.runtime.executive.loader import Executive
 from tappet.runtime.faults import RawFault
 from tappet.runtime.flight import FlightSettings, note_flight
-from tappet.runtime.image import ImageError
+from tappet.runtime.image import ImageError, ImageMemory
 from tappet.runtime.link import LinkError
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.online_change import OnlineChangeError, apply_change
@@ -92,6 +92,10 @@ class SoftPlc(ApplicationAccess):
         """Present state."""
         application = self.application
         return "empty" if application is None else _STATES[application.tasks.state]
+
+    def image_memory(self) -> ImageMemory | None:
+        """How full the memory of the variables is; None without an application."""
+        return self.application.image.memory() if self.application is not None else None
 
     def info(self) -> RuntimeInfo:
         """Identity, state and application."""

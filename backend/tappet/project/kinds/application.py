@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, StrictBool, StrictInt
 
 from tappet.iec.heap import DEFAULT_HEAP, KIB, LARGEST_HEAP_KIB, HeapSettings
+from tappet.iec.memory import DEFAULT_RESERVE, LARGEST_RESERVE_KIB, ChangeReserve
 from tappet.project.data import Data, Line
 from tappet.project.object_kind import Child, Codesys, JsonFile, Naming, ObjectKind, Placement, Plcopen
 
@@ -53,6 +54,25 @@ class HeapData(Data):
 USUAL_HEAP = HeapData()
 
 
+class ChangeReserveData(Data):
+    """The memory that a download sets aside for online changes."""
+
+    percent: Annotated[StrictInt, Field(ge=0, le=1000)] = Field(
+        default=DEFAULT_RESERVE.percent, description="Percent of the data of the application."
+    )
+    least_kib: Annotated[StrictInt, Field(ge=0, le=LARGEST_RESERVE_KIB)] = Field(
+        default=DEFAULT_RESERVE.least // KIB, description="KiB at least."
+    )
+
+    @property
+    def settings(self) -> ChangeReserve:
+        """As a build takes them."""
+        return ChangeReserve(self.percent, self.least_kib * KIB)
+
+
+USUAL_RESERVE = ChangeReserveData()
+
+
 SourceDownload = Literal["never", "on_demand", "prompt", "download"]
 
 
@@ -68,6 +88,9 @@ class ApplicationData(Data):
         default=NO_RULES, exclude_if=lambda chosen: chosen == NO_RULES
     )
     heap: HeapData = Field(default=USUAL_HEAP, exclude_if=lambda chosen: chosen == USUAL_HEAP)
+    change_reserve: ChangeReserveData = Field(
+        default=USUAL_RESERVE, exclude_if=lambda chosen: chosen == USUAL_RESERVE
+    )
     disabled_warnings: Annotated[tuple[WarningCode, ...], AfterValidator(_sorted)] = Field(
         default=(),
         max_length=10_000,

@@ -3,16 +3,31 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Annotated, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from msgspec import Meta
 
-from tappet.runtime.operations.declaration import OperationError, Session, SessionOperation
+from tappet.runtime.image import ImageMemory
+from tappet.runtime.operations.declaration import Operation, OperationError, Rest, Session, SessionOperation
 from tappet.runtime.state import RuntimeInfo
+
+if TYPE_CHECKING:
+    from tappet.runtime.plc import SoftPlc
 
 CHUNK = 1 << 20
 """Bytes of a package per message."""
 MAX_PACKAGE = 512 << 20
+
+
+class ReadImageMemory(Operation[ImageMemory | None], frozen=True):
+    """The memory of the variables with its reserve for online changes; null without an application."""
+
+    op: ClassVar[str] = "image_memory"
+    rest: ClassVar[Rest | None] = Rest("GET", "/image-memory", "viewer", None)
+
+    def run(self, plc: SoftPlc) -> ImageMemory | None:
+        """As of now."""
+        return plc.image_memory()
 
 
 class Upload:

@@ -18,6 +18,7 @@ from msgspec import convert, to_builtins
 
 from tappet.codegen.change_report import ChangeReport
 from tappet.iec.heap import DEFAULT_HEAP, HeapSettings
+from tappet.iec.memory import DEFAULT_RESERVE, ChangeReserve
 from tappet.iec.places import Span
 from tappet.iec.source import Scope, Source
 from tappet.iec.task import Task
@@ -56,6 +57,8 @@ class Application:
     """Name of the project."""
     heap: HeapSettings = DEFAULT_HEAP
     """The memory of `__NEW`."""
+    reserve: ChangeReserve = DEFAULT_RESERVE
+    """The memory that a download sets aside for online changes."""
     disabled_warnings: frozenset[str] = frozenset()
     """Codes of warnings that are not reported."""
 
@@ -78,6 +81,7 @@ class Application:
             texts.static_analysis(project, application_id),
             project.name,
             texts.heap(project, application_id),
+            texts.change_reserve(project, application_id),
             texts.disabled_warnings(project, application_id),
         )
 
@@ -248,6 +252,7 @@ class Builder:
             cache=str(self._cache),
             static=application.static.model_dump(),
             heap=asdict(application.heap),
+            reserve=asdict(application.reserve),
             disabled_warnings=tuple(sorted(application.disabled_warnings)),
             check_only=check_only,
             instrumented=instrumented,

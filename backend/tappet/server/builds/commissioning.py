@@ -16,10 +16,11 @@ from tappet.project.store import Store
 from tappet.project.store.records import UnknownProjectError
 from tappet.runtime.client import RuntimeRefused
 from tappet.runtime.exception_report import summary
+from tappet.runtime.operations.download import ReadImageMemory
 from tappet.runtime.operations.life_cycle import Start
 from tappet.server.builds.builder import Application, Builder, Built
 from tappet.server.builds.packages import PackageStore, StoredPackage
-from tappet.server.builds.shapes import BuildReport, ChangedVariable, LoginReport, Relation
+from tappet.server.builds.shapes import BuildReport, ChangedVariable, LoginReport, Relation, ReserveUse
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.plc_client import LoadMode
@@ -146,7 +147,16 @@ class Commissioning:
             return LoginReport(relation=Relation.SAME, reasons=[])
         if built.change_base == info.code_id:
             reasons = list(built.change_reasons) or ["Only code has changed; all data stay in place."]
+            reserve = await _reserve_use(link, built)
+            if reserve is not None and reserve.needed > reserve.reserved:
+                reason = (
+                    f"The online change needs {reserve.needed} bytes of the memory reserved for online "
+                    f"changes, which has {reserve.reserved}; download. The properties of the application set "
+                    "how much a download reserves."
+                )
+                return LoginReport(relation=Relation.DOWNLOAD, reasons=[reason], reserve=reserve)
             return LoginReport(
+                reserve=reserve,
                 relation=Relation.ONLINE_CHANGE,
                 reasons=reasons,
                 changes=[ChangedVariable(**structs.asdict(row)) for row in built.changes.rows],
@@ -223,6 +233,22 @@ async def _start(link: RuntimeLink, built: Built) -> None:
                 f"'{built.application.name}' was downloaded to '{link.name}', but does not start: {why}.",
                 exception=link.state().exception,
             ) from refusal
+
+
+async def _reserve_use(link: RuntimeLink, built: Built) -> ReserveUse | None:
+    """How full the reserve is, and will be; None where nobody knows."""
+    try:
+        async with link.client() as client:
+            memory = await client.call(ReadImageMemory())
+    except RuntimeRefused:  # one of an older version
+        return None
+    if memory is None or built.report.data_size is None:
+        return None
+    return ReserveUse(
+        used=max(0, memory.size - memory.downloaded),
+        needed=max(0, built.report.data_size - memory.downloaded),
+        reserved=memory.capacity - memory.downloaded,
+    )
 
 
 def _package(built: Built, purpose: str) -> bytes:

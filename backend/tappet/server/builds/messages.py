@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from tappet.project.library_reference import LibraryReference
@@ -28,6 +28,8 @@ class BuildOrder:
     """Fields of `project.kinds.application.StaticAnalysisData`."""
     heap: dict[str, Any]
     """Fields of `iec.heap.HeapSettings`."""
+    reserve: dict[str, Any] = field(default_factory=dict)
+    """Fields of `iec.memory.ChangeReserve`."""
     disabled_warnings: tuple[str, ...] = ()
     """Codes of warnings that are not reported."""
     check_only: bool = False

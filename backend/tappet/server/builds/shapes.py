@@ -104,6 +104,14 @@ class ChangedVariable(Reply):
     remanent: bool = Field(description="RETAIN or PERSISTENT.")
 
 
+class ReserveUse(Reply):
+    """The memory that the last download has set aside for online changes; in bytes."""
+
+    used: int = Field(description="Taken by online changes so far.")
+    needed: int = Field(description="Taken after this one.")
+    reserved: int = Field(description="In all.")
+
+
 class LoginReport(Reply):
     """Whether values may be shown at once, and what must be loaded first otherwise."""
 
@@ -115,6 +123,9 @@ class LoginReport(Reply):
         default=[], description="What an online change does to the variables, in the order of declarations."
     )
     changes_omitted: int = Field(default=0, description="Variables beyond those of the list.")
+    reserve: ReserveUse | None = Field(
+        default=None, description="For an online change: how much of the reserved memory it takes."
+    )
     loaded_project: str | None = Field(
         default=None, description="Name of the project that the runtime's application came from, when known."
     )

@@ -22,6 +22,7 @@ from tappet.codegen.build import BuildOptions, BuildSession, build_application
 from tappet.codegen.change_report import ChangeReport, change_report
 from tappet.codegen.package import CodePackage
 from tappet.iec.heap import HeapSettings
+from tappet.iec.memory import ChangeReserve
 from tappet.iec.task import Task
 from tappet.lang.coding_settings import static_analysis
 from tappet.lang.diagnostics import Diagnostic
@@ -101,6 +102,7 @@ class Compiler:
             cache=None if order["fresh"] else Path(order["cache"]),
             static=static_analysis(static["rules"], static["prefixes"], static["limits"]),
             heap=HeapSettings(**order["heap"]),
+            reserve=ChangeReserve(**order["reserve"]),
             disabled_warnings=frozenset(order["disabled_warnings"]),
             check_only=order["check_only"],
         )

@@ -17,15 +17,19 @@ import { FormPage, Section } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
 import { useDraft } from '@/editors/form/useDraft';
 import { HeapFields } from './HeapFields';
+import { ReserveFields } from './ReserveFields';
 import { SourceFields } from './SourceFields';
 import { canStore } from './heap';
+import { usableReserve } from './reserve';
 
 const Icon = objectIcon('application');
 
 /** What an application consists of, the memory it may take, its last build, and the controller it is logged in to. */
+const usable = (data: Parameters<typeof canStore>[0]) => canStore(data) && usableReserve(data);
+
 export default function ApplicationEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
-  const draft = useDraft(panelId, projectId, objectId, ofKind('application'), canStore);
+  const draft = useDraft(panelId, projectId, objectId, ofKind('application'), usable);
   const { data: objects } = useObjects(projectId);
   const active = useProject((state) => state.applicationId) === objectId;
   const session = useOnline((state) => state.sessions[objectId]);
@@ -89,6 +93,11 @@ export default function ApplicationEditor({ panelId, projectId, objectId }: Edit
             application={application}
             disabled={draft.readOnly !== null}
             onChange={(heap) => draft.change({ ...application, heap })}
+          />
+          <ReserveFields
+            application={application}
+            disabled={draft.readOnly !== null}
+            onChange={(change_reserve) => draft.change({ ...application, change_reserve })}
           />
           <SourceFields
             value={application.source_download}

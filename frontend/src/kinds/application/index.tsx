@@ -1,6 +1,7 @@
 import { icon } from '@/icons/shape';
 import type { ObjectKindDescriptor } from '@/project/kinds';
 import { hasUsableHeap } from './heap';
+import { hasUsableReserve } from './reserve';
 import { hasUsablePrefixes } from './rules';
 import type en from './en.json';
 import { onDemand } from '@/ui/onDemand';
@@ -25,7 +26,7 @@ const descriptor: ObjectKindDescriptor = {
     {
       title: 'application.memoryAndSource',
       component: onDemand(() => import('./SettingsPage')),
-      canStore: hasUsableHeap,
+      canStore: (object) => hasUsableHeap(object) && hasUsableReserve(object),
     },
     { title: 'warnings.title', component: onDemand(() => import('./WarningsPage')) },
     { title: 'analysis.rules', component: onDemand(() => import('./RulesPage')), canStore: hasUsablePrefixes },

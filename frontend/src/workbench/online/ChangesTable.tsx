@@ -18,6 +18,7 @@ import {
   type ChangedVariable,
   type Effect,
 } from './changes';
+import { bytesText } from '../messages/store';
 import styles from './ChangesTable.module.css';
 
 const ICONS: Record<Effect, LucideIcon> = {
@@ -117,10 +118,15 @@ export function ChangesTable({ answer, onLeave }: ChangesTableProps) {
           empty={<Empty title={t('changes.noneShown')} />}
         />
       </div>
-      {(counts.moved > 0 || answer.changes_omitted > 0) && (
+      {(counts.moved > 0 || answer.changes_omitted > 0 || answer.reserve) && (
         <p className={styles.note}>
           {[
             counts.moved > 0 && t('changes.pointers'),
+            answer.reserve &&
+              t('changes.reserve', {
+                needed: bytesText(answer.reserve.needed),
+                reserved: bytesText(answer.reserve.reserved),
+              }),
             answer.changes_omitted > 0 && t('changes.omitted', { number: answer.changes_omitted }),
           ]
             .filter(Boolean)

@@ -236,6 +236,7 @@ const NOTHING_TO_LOAD: LoginAnswer = {
   reasons: [],
   changes: [],
   changes_omitted: 0,
+  reserve: null,
   loaded_project: null,
 };
 

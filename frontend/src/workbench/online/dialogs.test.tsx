@@ -18,6 +18,7 @@ const found = (relation: LoginAnswer['relation'], loaded_project: string | null 
   reasons: [],
   changes: [],
   changes_omitted: 0,
+  reserve: null,
   loaded_project,
 });
 const names = { application: 'Application', project: 'Line 2' };
