@@ -23,10 +23,9 @@ import { canStore } from './heap';
 import { usableReserve } from './reserve';
 
 const Icon = objectIcon('application');
-
-/** What an application consists of, the memory it may take, its last build, and the controller it is logged in to. */
 const usable = (data: Parameters<typeof canStore>[0]) => canStore(data) && usableReserve(data);
 
+/** What an application consists of, the memory it may take, its last build, and the controller it is logged in to. */
 export default function ApplicationEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
   const draft = useDraft(panelId, projectId, objectId, ofKind('application'), usable);

@@ -21,7 +21,7 @@ describe('the memory for online changes', () => {
   });
 
   it('is usual where nothing is said', () => {
-    expect(usableReserve({} as Schemas['ApplicationData'])).toBe(true);
+    expect(usableReserve({})).toBe(true);
     expect(usableReserve(application(50, 0))).toBe(true);
     expect(usableReserve(application(50, -1))).toBe(false);
   });
