@@ -906,6 +906,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/applications/{application_id}/versions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Versions
+         * @description What was brought into a runtime, by whom and when; the newest first.
+         */
+        get: operations["read_versions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/applications/{application_id}/versions/{code_id}/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Compare Version
+         * @description What it costs to bring that version back: whether it goes online, and what happens to variables.
+         */
+        post: operations["compare_version"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/applications/{application_id}/versions/{code_id}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Version
+         * @description Bring a version back into the runtime. The project stays as it is.
+         */
+        post: operations["restore_version"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/cams/code": {
         parameters: {
             query?: never;
@@ -2254,6 +2314,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/image-memory": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Image Memory
+         * @description The memory of the variables with its reserve for online changes; null without an application.
+         */
+        get: operations["image_memory"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/log": {
         parameters: {
             query?: never;
@@ -2863,6 +2943,13 @@ export interface components {
          * @description An application: how it is checked, and the memory that it may take.
          */
         ApplicationData: {
+            /**
+             * @default {
+             *       "least_kib": 1024,
+             *       "percent": 100
+             *     }
+             */
+            change_reserve?: components["schemas"]["ChangeReserveData"];
             /**
              * Disabled Warnings
              * @description Codes of the compiler's warnings and notes that are not reported.
@@ -4244,6 +4331,24 @@ export interface components {
          */
         ChangeBreakpoint: {
             breakpoint: components["schemas"]["BreakpointOrder"];
+        };
+        /**
+         * ChangeReserveData
+         * @description The memory that a download sets aside for online changes.
+         */
+        ChangeReserveData: {
+            /**
+             * Least Kib
+             * @description KiB at least.
+             * @default 1024
+             */
+            least_kib: number;
+            /**
+             * Percent
+             * @description Percent of the data of the application.
+             * @default 100
+             */
+            percent: number;
         };
         /**
          * ChangedVariable
@@ -5645,6 +5750,15 @@ export interface components {
             zero_velocity: number;
         };
         /**
+         * ImageMemory
+         * @description How full the memory of the variables is, in bytes.
+         */
+        ImageMemory: {
+            capacity: number;
+            downloaded: number;
+            size: number;
+        };
+        /**
          * ImagePlace
          * @description Bytes of the memory image, or one bit of the byte at `offset`.
          */
@@ -6220,6 +6334,8 @@ export interface components {
              */
             reasons: string[];
             relation: components["schemas"]["Relation"];
+            /** @description For an online change: how much of the reserved memory it takes. */
+            reserve: components["schemas"]["ReserveUse"] | null;
         };
         /**
          * LoginTarget
@@ -7965,6 +8081,27 @@ export interface components {
             version: string;
         };
         /**
+         * ReserveUse
+         * @description The memory that the last download has set aside for online changes; in bytes.
+         */
+        ReserveUse: {
+            /**
+             * Needed
+             * @description Taken after this one.
+             */
+            needed: number;
+            /**
+             * Reserved
+             * @description In all.
+             */
+            reserved: number;
+            /**
+             * Used
+             * @description Taken by online changes so far.
+             */
+            used: number;
+        };
+        /**
          * Reset
          * @description Initialise the variables: warm (not RETAIN), cold (not PERSISTENT), origin (all, and unload).
          */
@@ -8038,6 +8175,25 @@ export interface components {
              * @description Of the drive, in Nm.
              */
             torque: number[] | null;
+        };
+        /**
+         * RestoreOrder
+         * @description How to bring an earlier version back.
+         */
+        RestoreOrder: {
+            /**
+             * Mode
+             * @enum {string}
+             */
+            mode: "download" | "online_change";
+            /** Runtime Id */
+            runtime_id: string;
+            /**
+             * Start
+             * @description Start after a download; an online change never stops.
+             * @default true
+             */
+            start?: boolean;
         };
         /**
          * Result
@@ -10170,6 +10326,36 @@ export interface components {
          */
         Variables: {
             variables: components["schemas"]["Variable"][];
+        };
+        /**
+         * Version
+         * @description One that was brought into the runtime.
+         */
+        Version: {
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /** Code Id */
+            code_id: string;
+            /**
+             * How
+             * @enum {string}
+             */
+            how: "download" | "online-change";
+            /**
+             * Kept
+             * @description Whether the server still has its source, so that it can be brought back.
+             */
+            kept: boolean;
+            /**
+             * Runs
+             * @description Whether it is the one that the runtime has now.
+             */
+            runs: boolean;
+            /** Username */
+            username: string;
         };
         /**
          * WatchdogData
@@ -12321,6 +12507,142 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_versions: {
+        parameters: {
+            query: {
+                /** @description The runtime they were brought into. */
+                runtime_id: string;
+            };
+            header?: never;
+            path: {
+                project_id: string;
+                application_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Version"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    compare_version: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                application_id: string;
+                code_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LoginTarget"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LoginReport"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    restore_version: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                application_id: string;
+                code_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RestoreOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DownloadReport"];
+                };
             };
             /** @description The request was refused */
             422: {
@@ -15541,6 +15863,46 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Forces"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    image_memory: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImageMemory"] | null;
                 };
             };
             /** @description The request was refused */
