@@ -12,6 +12,7 @@ import pytest
 from pydantic import ValidationError
 from recipe_projects import DARK, NUMBERS, PATHS, build, package, project_of
 
+from tappet.iec.places import Span
 from tappet.project import edit
 from tappet.project.model import Project
 from tappet.project.recipes.definition import RecipeDefinitionData, RecipeManagerData
@@ -377,6 +378,7 @@ def test_what_does_not_fit_is_an_error_at_its_cell() -> None:
         "variables": [
             {"path": "PLC_PRG.nLevel", "minimum": "'low'"},
             {"path": "PLC_PRG.nNone"},
+            {"path": "PLC_PRG.aStep[1]"},
             {"path": "PLC_PRG.sLabel; x := 1"},
             {"path": "PLC_PRG.xFan"},
         ],
@@ -400,10 +402,24 @@ def test_what_does_not_fit_is_an_error_at_its_cell() -> None:
         "PLC_PRG.nLevel / minimum",
         "PLC_PRG.nLevel / recipe Light",
         "PLC_PRG.nNone",
+        "PLC_PRG.aStep[1]",
         "PLC_PRG.sLabel; x := 1",
         "PLC_PRG.xFan / recipe Light",
         "PLC_PRG.xFan / recipe Dark",
     }
+
+
+@pytest.mark.parametrize("recipes", [[], [{"name": "Light", "values": {"PLC_PRG.gone": "1"}}]])
+def test_a_definition_without_variables(start: Start, recipes: list[Any]) -> None:
+    project = project_of({"variables": [], "recipes": recipes})
+    assert start(project).command("CreateRecipe", "Rye") == ERR_OK
+    (item,) = project.find_kind("recipe_definition")
+    (application,) = project.applications()
+    (source,) = [
+        s for s in application_sources(project, application.id) if "RecipeDefinition_Bread" in s.text
+    ]
+    lines = range(source.text.count("\n") + 1)
+    assert {source.map.place(Span(line, 0, line, 1)).object_id for line in lines} == {item.id}
 
 
 def test_an_online_change_takes_over_edited_recipes(start: Start) -> None:

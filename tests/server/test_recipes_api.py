@@ -150,3 +150,41 @@ def test_operators_write_and_engineers_change(
     assert as_role["operator"].post(f"{kitchen.runtime}/read", json=kitchen.order("Light")).status_code == 403
     assert as_role["viewer"].post(f"{kitchen.runtime}/compare", json=kitchen.order()).status_code == 200
     assert as_role["viewer"].put(f"{kitchen.files}/Light/file", json={"text": ""}).status_code == 403
+
+
+def test_variables_that_a_recipe_can_have(admin: TestClient, kitchen: Kitchen) -> None:
+    objects = admin.get(f"{API}/projects/{kitchen.project}/objects").json()
+    program = next(item for item in objects if item["kind"] == "pou")
+    application = next(item["id"] for item in objects if item["kind"] == "application")
+    modes = {"declaration": "TYPE E_Mode : (Off, On); END_TYPE"}
+    kitchen.add("dut", "E_Mode", application, modes)
+    text = """PROGRAM PLC_PRG
+VAR
+    bStart : BOOL; nCount : INT; rSpeed : LREAL; sName : STRING(10); eMode : E_Mode;
+    fbDelay : TON; aStep : ARRAY[1..2] OF INT; pAny : POINTER TO INT;
+END_VAR
+VAR CONSTANT cLimit : INT := 5; END_VAR"""
+    body = {
+        "base_revision": program["revision"],
+        "data": {"declaration": text, "implementation": "fbDelay();"},
+    }
+    saved = admin.put(f"{API}/projects/{kitchen.project}/objects/{program['id']}", json=body)
+    assert saved.status_code == 200, saved.text
+    answer = admin.get(f"{kitchen.files}/variables")
+    assert answer.status_code == 200, answer.text
+    paths = {row["path"]: row["type"] for row in answer.json()["found"]}
+    assert {
+        "PLC_PRG.fbDelay.PT": "TIME",
+        "PLC_PRG.aStep[2]": "INT",
+        "PLC_PRG.rSpeed": "LREAL",
+    }.items() <= paths.items()
+    assert not {"PLC_PRG.pAny", "PLC_PRG.cLimit", "PLC_PRG.aStep", "PLC_PRG.fbDelay"} & set(paths)
+    assert answer.json()["types"]["PLC_PRG.sName"] == "STRING(10)"
+    some = admin.get(f"{kitchen.files}/variables", params={"query": "plc STEP"}).json()
+    assert [row["path"] for row in some["found"]] == ["PLC_PRG.aStep[1]", "PLC_PRG.aStep[2]"]
+    assert some["more"] is False
+    at = f"{API}/projects/{kitchen.project}/objects/{program['id']}"
+    body = {"base_revision": saved.json()["revision"], "data": body["data"] | {"implementation": "wrong"}}
+    assert admin.put(at, json=body).status_code == 200
+    refused = admin.get(f"{kitchen.files}/variables")
+    assert (refused.status_code, refused.json()["type"]) == (409, "urn:tappet:problem:build-errors")

@@ -58,19 +58,16 @@ def write_definitions(
 def _write_block(
     manager: RecipeManagerData, item: ProjectObject, data: RecipeDefinitionData, writer: SourceWriter
 ) -> None:
-    writer.keyword(
-        f"{NOT_WRITTEN_BY_HAND}\n{{attribute 'hide'}}\n"
-        f"FUNCTION_BLOCK RecipeDefinition_{item.name} EXTENDS {NAMESPACE}.RecipeDefinition\n"
-    )
+    writer.keyword(f"{NOT_WRITTEN_BY_HAND}\n{{attribute 'hide'}}")
+    head = f"FUNCTION_BLOCK RecipeDefinition_{item.name} EXTENDS {NAMESPACE}.RecipeDefinition"
+    writer.part(item.id, "declaration", head)
     writer.keyword("METHOD PROTECTED Describe")
     writer.keyword("\n".join(f"{name} := {value};" for name, value in _facts(manager, item, data)))
     writer.keyword("END_METHOD\n\nMETHOD PROTECTED Bind")
     for number, variable in enumerate(data.variables):
-        path = variable.path if form_of(variable.path) == "name" or "[" in variable.path else ""
-        if not _is_path(path):
+        text = f"Bound({number}, {variable.path});"
+        if not _is_path(variable.path):
             text = f"{{error 'no path of a variable: {_quoted(variable.path)}'}}"
-        else:
-            text = f"Bound({number}, {path});"
         writer.element(item.id, variable.path, text)
     writer.keyword("END_METHOD\n")
     _write_choices(
@@ -165,9 +162,12 @@ def _write_check(item: ProjectObject, data: RecipeDefinitionData, writer: Source
         f"{NOT_WRITTEN_BY_HAND}\n{{attribute 'hide'}}\n{{attribute 'tappet_value_check'}}\n"
         f"FUNCTION RecipeCheck_{item.name} : BOOL"
     )
-    for variable in data.variables:
-        if not _is_path(variable.path):
-            continue
+    rows = [variable for variable in data.variables if _is_path(variable.path)]
+    if rows:
+        writer.keyword("VAR\n    sText : STRING;\nEND_VAR")
+    for variable in rows:
+        # only elementary types have texts
+        writer.element(item.id, variable.path, f"sText := TO_STRING({variable.path});")
         for what, text in (("minimum", variable.minimum), ("maximum", variable.maximum)):
             _write_assignment(item, variable.path, what, text, writer)
         for recipe in data.recipes:

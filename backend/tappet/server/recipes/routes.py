@@ -5,15 +5,17 @@ from __future__ import annotations
 from typing import Annotated
 from urllib.parse import quote
 
+from fastapi import Query
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import PlainTextResponse
 
 from tappet.server.audit import Act
 from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.roles import Role
-from tappet.server.dependencies import Engineer, LinkDep, StoreDep, Viewer
+from tappet.server.dependencies import CommissioningDep, Engineer, LinkDep, StoreDep, Viewer
 from tappet.server.objects.replies import object_detail
 from tappet.server.objects.shapes import ObjectDetail
+from tappet.server.problems import Problem
 from tappet.server.recipes import service
 from tappet.server.recipes.service import Definition
 from tappet.server.recipes.shapes import (
@@ -24,6 +26,7 @@ from tappet.server.recipes.shapes import (
     RecipeOrder,
     RecipeText,
     RecipeValues,
+    RecipeVariables,
     RecipeWritten,
 )
 from tappet.server.routing import Router
@@ -96,7 +99,11 @@ async def compare_recipes(
     return in_language(RecipeComparison(values=rows), language)
 
 
-@router.get("/projects/{project_id}/recipes/{definition_id}/{recipe}/file", response_class=PlainTextResponse)
+@router.get(
+    "/projects/{project_id}/recipes/{definition_id}/{recipe}/file",
+    response_class=PlainTextResponse,
+    responses={200: {"content": {"text/plain": {"schema": {"type": "string", "format": "binary"}}}}},
+)
 def export_recipe(
     who: Viewer, project_id: str, definition_id: str, recipe: Name, store: StoreDep
 ) -> PlainTextResponse:
@@ -108,6 +115,28 @@ def export_recipe(
         service.to_file(definition, found),
         headers={"Content-Disposition": f"attachment; filename*=UTF-8''{name}"},
     )
+
+
+@router.get("/projects/{project_id}/recipes/{definition_id}/variables")
+async def list_recipe_variables(
+    who: Viewer,
+    project_id: str,
+    definition_id: str,
+    store: StoreDep,
+    commissioning: CommissioningDep,
+    query: Annotated[str, Query(max_length=200, description="Parts of the path, separated by blanks.")] = "",
+) -> RecipeVariables:
+    """The elementary variables of the application, members of instances and elements of arrays among them.
+
+    Builds the application; the problem `build-errors` (409) when that is not possible.
+    """
+    definition = await run_in_threadpool(service.load, store, project_id, definition_id)
+    application_id = await run_in_threadpool(service.application_of, store, project_id, definition_id)
+    built = await commissioning.build(project_id, application_id)
+    if built.package is None:
+        name = built.application.name
+        raise Problem(409, "build-errors", f"'{name}' has errors, so that its variables are not known.")
+    return await run_in_threadpool(service.variables, built.package, definition, query)
 
 
 @router.post("/projects/{project_id}/recipes/{definition_id}/file")

@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
-from tappet.codegen.symbol_map import SymbolError, SymbolMap
+from tappet.codegen.package import CodePackage
+from tappet.codegen.symbol_map import Child, SymbolError, SymbolMap
+from tappet.project.kinds.application import APPLICATION
 from tappet.project.model import ProjectObject
 from tappet.project.naming import name_key
 from tappet.project.recipes.definition import Recipe, RecipeDefinitionData, RecipeManagerData
 from tappet.project.recipes.recipe_file import RecipeFileError, RecipeFileValues, read_recipe, write_recipe
 from tappet.project.store import Store
 from tappet.server.problems import Problem
+from tappet.server.recipes.shapes import RecipeVariables, RecipeVariableType
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.shapes import InvalidField
 from tappet.server.values import service as values
 from tappet.server.values.shapes import NewValue, Value
+
+MOST_FOUND = 500
+MOST_LOOKED_AT = 200_000
+_NO_VALUES = frozenset({"pointer", "reference", "interface", "bit"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,6 +129,50 @@ def same(symbols: SymbolMap, path: str, one: str, other: str | None) -> bool:
         return symbols.encode(ref, one) == symbols.encode(ref, other)
     except (SymbolError, ValueError):
         return False
+
+
+def application_of(store: Store, project_id: str, definition_id: str) -> str:
+    """The application that a definition belongs to."""
+    item = store.get(project_id, definition_id)
+    while item.kind != APPLICATION.name:
+        assert item.parent_id is not None, "a definition is below an application"
+        item = store.get(project_id, item.parent_id)
+    return item.id
+
+
+def variables(package: bytes, definition: Definition, query: str) -> RecipeVariables:
+    """The elementary variables of a package whose paths have all words of a query."""
+    symbols = CodePackage.from_bytes(package).symbols
+    words = [word.upper() for word in query.split()]
+    found: list[RecipeVariableType] = []
+    more = False
+    for number, child in enumerate(_elementary(symbols, "")):
+        fits = all(word in child.path.upper() for word in words)
+        if number >= MOST_LOOKED_AT or (fits and len(found) == MOST_FOUND):
+            more = True
+            break
+        if fits:
+            found.append(RecipeVariableType(path=child.path, type=child.type))
+    types = {}
+    for variable in definition.data.variables:
+        with suppress(SymbolError):
+            types[variable.path] = symbols.resolve(variable.path).type.name
+    return RecipeVariables(found=found, more=more, types=types)
+
+
+def _elementary(symbols: SymbolMap, path: str) -> Iterator[Child]:
+    """What lies below a path, down to values; what is made of recipes and axes is left out."""
+    try:
+        children = symbols.children(path)
+    except SymbolError:  # of what cannot be looked into
+        return
+    for child in children:
+        if not path and child.name.startswith(("IoConfig_", "_")):
+            continue
+        if not child.leaf:
+            yield from _elementary(symbols, child.path)
+        elif "CONSTANT" not in child.flags and child.kind not in _NO_VALUES and child.section != "VAR_IN_OUT":
+            yield child
 
 
 def from_file(definition: Definition, text: str) -> RecipeFileValues:

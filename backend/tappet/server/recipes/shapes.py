@@ -50,6 +50,21 @@ class RecipeComparison(Reply):
     values: list[ComparedValue]
 
 
+class RecipeVariableType(Reply):
+    """A variable that a recipe can have."""
+
+    path: str
+    type: str
+
+
+class RecipeVariables(Reply):
+    """Variables that a recipe definition can have."""
+
+    found: list[RecipeVariableType]
+    more: bool = Field(description="There are more that fit; ask for less.")
+    types: dict[str, str] = Field(description="The types of the variables that the definition has, by path.")
+
+
 class RecipeText(Request):
     """A recipe file."""
 

@@ -1,0 +1,38 @@
+"""Tour of the dialogs of recipe definitions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .api import example, fetch
+from .conftest import Server
+from .every_dialog import tour
+from .ui import Ui
+from .workbench import open_object
+
+
+@tour("recipes.addVariables", "recipes.addRecipe", "recipes.renameRecipe", "recipes.import")
+def recipes(ui: Ui, server: Server) -> Iterator[str]:
+    """What is asked for variables, for names of recipes, and for a file."""
+    page = ui.page
+    project = example(page, server)
+    objects = fetch(page, server, "GET", f"{project}/objects")
+    application = next(one for one in objects if one["kind"] == "application")
+    manager = {"kind": "recipe_manager", "name": "Recipe Manager", "parent_id": application["id"]}
+    made = fetch(page, server, "POST", f"{project}/objects", data=manager)
+    data = {"recipes": [{"name": "Light"}]}
+    definition = {"kind": "recipe_definition", "name": "RecipeTour", "parent_id": made["id"], "data": data}
+    fetch(page, server, "POST", f"{project}/objects", data=definition)
+    try:
+        open_object(page, "RecipeTour")
+        for key in ("recipes.addVariables", "recipes.addRecipe"):
+            ui.button(key, ui.panel().get_by_role("toolbar")).click()
+            yield key
+            page.keyboard.press("Escape")
+        for key in ("recipes.renameRecipe", "recipes.import"):
+            ui.button("recipes.menu", ui.panel()).click()
+            page.get_by_role("menuitem", name=ui.name(key)).click()
+            yield key
+            page.keyboard.press("Escape")
+    finally:
+        fetch(page, server, "DELETE", f"{project}/objects/{made['id']}")
