@@ -1,0 +1,295 @@
+"""Samples on disk: columns in chunks, and the least and largest values of blocks of 16, 256 and 4096 samples.
+
+A file of chunks is only appended to, a chunk at a time, so that what was written stays readable whatever
+happens to the process. Within a chunk a column lies in one piece. Of the pyramid only the topmost level is
+kept in memory (16 bytes a channel for 4096 samples): any window reads a few pages of the level whose blocks
+fit its width.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from itertools import accumulate
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from tappet.traces.samples import (
+    Batch,
+    ChannelInfo,
+    Flags,
+    Integers,
+    Reals,
+    empty_batch,
+    joined,
+    reduced,
+)
+
+CHUNK = 4096
+LEVELS = (16, 256, 4096)
+"""Samples in a block of each level of the pyramid; the last one is a chunk."""
+
+
+class ChunkFiles:
+    """The files of one record: one of samples and one for each level of the pyramid."""
+
+    def __init__(self, folder: Path, record: int, channels: Sequence[ChannelInfo]) -> None:
+        self.channels = list(channels)
+        self.dtypes: list[np.dtype[Any]] = [np.dtype("<i8"), np.dtype("<i8"), np.dtype("u1")]
+        self.dtypes += [np.dtype(f"<{channel.number}") for channel in channels]
+        self.offsets = list(accumulate((d.itemsize * CHUNK for d in self.dtypes), initial=0))
+        self._samples = folder / f"record{record}.samples"
+        self._levels = [folder / f"record{record}.by{size}" for size in LEVELS]
+        self._tail = folder / f"record{record}.tail.npz"
+
+    @property
+    def chunk_size(self) -> int:
+        """Bytes of a chunk of samples."""
+        return self.offsets[-1]
+
+    def chunks(self) -> int:
+        """How many are complete in all files."""
+        counts = [_size(self._samples) // self.chunk_size]
+        width = 16 * len(self.channels)
+        if width:
+            counts += [
+                _size(path) // (width * (CHUNK // size))
+                for path, size in zip(self._levels, LEVELS, strict=True)
+            ]
+        return min(counts)
+
+    def bytes(self) -> int:
+        """On disk."""
+        return _size(self._samples) + _size(self._tail) + sum(_size(path) for path in self._levels)
+
+    def cut(self) -> int:
+        """Drop what a killed process has left behind the last complete chunk; how many there are."""
+        count = self.chunks()
+        width = 16 * len(self.channels)
+        sizes = [self.chunk_size, *(width * (CHUNK // size) for size in LEVELS)]
+        for path, size in zip((self._samples, *self._levels), sizes, strict=True):
+            if _size(path) > count * size:
+                os.truncate(path, count * size)
+        return count
+
+    def append(self, batch: Batch) -> Reals:
+        """Write a full chunk; gives its topmost level: least and largest value of each channel."""
+        columns: list[npt.NDArray[Any]] = [batch.cycle, batch.time, batch.gap, *batch.values]
+        pairs = [[reduced(column, size) for column in batch.values] for size in LEVELS]
+        # the samples last: a chunk counts when they are complete
+        for path, level in zip(self._levels, pairs, strict=True):
+            _append(path, b"".join(part.tobytes() for pair in level for part in pair))
+        _append(
+            self._samples,
+            b"".join(c.astype(d, copy=False).tobytes() for c, d in zip(columns, self.dtypes, strict=True)),
+        )
+        return np.array([[low[0], high[0]] for low, high in pairs[-1]]).reshape(len(self.channels), 2)
+
+    def column(self, number: int, first: int, last: int) -> npt.NDArray[Any]:
+        """A column of chunks `first` to `last`: cycle, time, gap, then the channels."""
+        dtype = self.dtypes[number]
+        if last <= first:
+            return np.empty(0, dtype)
+        raw = np.memmap(
+            self._samples, np.uint8, "r", first * self.chunk_size, (last - first, self.chunk_size)
+        )
+        start = self.offsets[number]
+        return raw[:, start : start + dtype.itemsize * CHUNK].copy().view(dtype).reshape(-1)
+
+    def at(self, number: int, samples: Integers) -> npt.NDArray[Any]:
+        """Single values of a column."""
+        dtype = self.dtypes[number]
+        count = int(samples[-1]) // CHUNK + 1
+        raw: npt.NDArray[Any] = np.memmap(self._samples, np.uint8, "r", 0, (count, self.chunk_size))
+        start = self.offsets[number]
+        column = raw[:, start : start + dtype.itemsize * CHUNK].view(dtype)
+        return np.asarray(column[samples // CHUNK, samples % CHUNK])
+
+    def level(self, number: int, channel: int, first: int, last: int) -> Reals:
+        """Least and largest values of the blocks of a level in chunks `first` to `last`: two rows."""
+        blocks = CHUNK // LEVELS[number]
+        size = len(self.channels) * 2 * blocks
+        shape = (last - first, len(self.channels), 2, blocks)
+        if last <= first:
+            return np.empty((2, 0))
+        raw: npt.NDArray[Any] = np.memmap(self._levels[number], np.float64, "r", first * size * 8, shape)
+        return np.ascontiguousarray(raw[:, channel].transpose(1, 0, 2)).reshape(2, -1)
+
+    def keep_tail(self, batch: Batch) -> None:
+        """Write the samples behind the last chunk, in place of those before."""
+        unfinished = self._tail.with_suffix(".new")
+        columns: dict[str, Any] = {"cycle": batch.cycle, "time": batch.time, "gap": batch.gap}
+        columns |= {f"v{number}": column for number, column in enumerate(batch.values)}
+        with unfinished.open("wb") as file:
+            np.savez(file, allow_pickle=False, **columns)
+        unfinished.replace(self._tail)
+
+    def kept_tail(self) -> Batch:
+        """The samples behind the last chunk, as they were kept; none where the file is damaged."""
+        try:
+            with np.load(self._tail, allow_pickle=False) as file:
+                values = [file[f"v{n}"] for n in range(len(self.channels))]
+                return Batch(file["cycle"], file["time"], file["gap"], values)
+        except (OSError, ValueError, KeyError, EOFError):
+            return empty_batch(self.channels)
+
+
+def _size(path: Path) -> int:
+    return path.stat().st_size if path.exists() else 0
+
+
+def _append(path: Path, data: bytes) -> None:
+    with path.open("ab") as file:
+        file.write(data)
+
+
+class StoredSamples:
+    """Samples of one record on disk, with those in memory that fill no chunk yet."""
+
+    def __init__(self, folder: Path, record: int, channels: Sequence[ChannelInfo]) -> None:
+        self.channels = list(channels)
+        self._files = ChunkFiles(folder, record, channels)
+        self._chunks = self._files.cut()
+        self._tail = self._files.kept_tail()
+        tops = [self._files.level(len(LEVELS) - 1, c, 0, self._chunks) for c in range(len(channels))]
+        self._top = [list(top) for top in tops]
+        self._begins = self._files.column(1, 0, self._chunks)[::CHUNK].tolist()
+        self._drop_written()
+
+    def _drop_written(self) -> None:
+        """A tail that was kept before its chunk was written begins with samples of that chunk."""
+        if self._chunks and len(self._tail):
+            last = self._files.column(0, self._chunks - 1, self._chunks)[-1]
+            self._tail = self._tail.part(
+                int(np.searchsorted(self._tail.cycle, last, "right")), len(self._tail)
+            )
+
+    @property
+    def count(self) -> int:
+        """How many samples there are."""
+        return self._chunks * CHUNK + len(self._tail)
+
+    @property
+    def bytes(self) -> int:
+        """On disk."""
+        return self._files.bytes()
+
+    @property
+    def last_cycle(self) -> int | None:
+        """Of the last sample."""
+        return int(self.cycles(self.count - 1, self.count)[0]) if self.count else None
+
+    def append(self, batch: Batch) -> None:
+        """Keep more samples."""
+        if not len(batch):
+            return
+        waiting = joined([self._tail, batch]) if len(self._tail) else batch
+        start = 0
+        while len(waiting) - start >= CHUNK:
+            part = waiting.part(start, start + CHUNK)
+            top = self._files.append(part)
+            for channel, (low, high) in enumerate(top):
+                kept = self._top[channel]
+                self._top[channel] = [np.append(kept[0], low), np.append(kept[1], high)]
+            self._begins.append(int(part.time[0]))
+            self._chunks += 1
+            start += CHUNK
+        self._tail = waiting.part(start, len(waiting))
+
+    def flush(self) -> None:
+        """Bring what is in memory to disk."""
+        self._files.keep_tail(self._tail)
+
+    def _tail_column(self, number: int) -> npt.NDArray[Any]:
+        """A column of the samples in memory, numbered as in the files."""
+        tail = self._tail
+        columns: list[npt.NDArray[Any]] = [tail.cycle, tail.time, tail.gap, *tail.values]
+        return columns[number]
+
+    def _column(self, number: int, start: int, stop: int) -> npt.NDArray[Any]:
+        stored = self._chunks * CHUNK
+        tail = self._tail_column(number)
+        behind = tail[max(0, start - stored) : max(0, stop - stored)]
+        if start >= stored:
+            return behind
+        first, last = start // CHUNK, -(-min(stop, stored) // CHUNK)
+        found = self._files.column(number, first, last)[
+            start - first * CHUNK : min(stop, stored) - first * CHUNK
+        ]
+        return np.concatenate([found, behind]) if len(behind) else found
+
+    def cycles(self, start: int, stop: int) -> Integers:
+        """Numbers of the cycles."""
+        return self._column(0, start, stop)
+
+    def times(self, start: int, stop: int) -> Integers:
+        """Unix times in ns."""
+        return self._column(1, start, stop)
+
+    def gaps(self, start: int, stop: int) -> Flags:
+        """1 where samples are missing before."""
+        return self._column(2, start, stop)
+
+    def _at(self, number: int, samples: Integers) -> npt.NDArray[Any]:
+        """Single values of a column; `samples` rise."""
+        stored = self._chunks * CHUNK
+        tail = self._tail_column(number)
+        behind = int(np.searchsorted(samples, stored))
+        if not behind:
+            return tail[samples - stored]
+        return np.concatenate([self._files.at(number, samples[:behind]), tail[samples[behind:] - stored]])
+
+    def times_at(self, numbers: Integers) -> Integers:
+        """Unix times of single samples."""
+        return self._at(1, numbers)
+
+    def gaps_at(self, numbers: Integers) -> Flags:
+        """1 where samples are missing before single samples."""
+        return self._at(2, numbers)
+
+    def native(self, channel: int, start: int, stop: int) -> npt.NDArray[Any]:
+        """Values as the type of the variable has them."""
+        return self._column(3 + channel, start, stop)
+
+    def search(self, time: int) -> int:
+        """Number of the first sample that is not before a time."""
+        chunk = int(np.searchsorted(np.asarray(self._begins, np.int64), time)) - 1
+        if chunk < 0 and self._chunks:
+            return 0
+        start = max(0, chunk) * CHUNK
+        stop = min(start + CHUNK, self.count) if chunk < self._chunks - 1 else self.count
+        return start + int(np.searchsorted(self.times(start, stop), time))
+
+    def extremes(self, channel: int, start: int, stop: int, step: int) -> tuple[Reals, Reals]:
+        """Least and largest values of blocks, from the level whose blocks fit into the step."""
+        fitting = [number for number, size in enumerate(LEVELS) if step % size == 0]
+        if not fitting:
+            return reduced(self.native(channel, start, stop), step)
+        number = fitting[-1]
+        size = LEVELS[number]
+        stored = self._chunks * CHUNK
+        end = min(stop, stored) // size * size
+        low, high = self._blocks(number, channel, start, end)
+        rest_low, rest_high = reduced(self.native(channel, max(start, end), stop), size)
+        low, high = np.concatenate([low, rest_low]), np.concatenate([high, rest_high])
+        starts = np.arange(0, len(low), step // size)
+        if not len(starts):
+            return low, high
+        return np.fmin.reduceat(low, starts), np.fmax.reduceat(high, starts)
+
+    def _blocks(self, number: int, channel: int, start: int, end: int) -> tuple[Reals, Reals]:
+        """Blocks of a level from sample `start` to `end`, both multiples of their size."""
+        size = LEVELS[number]
+        if end <= start:
+            return np.empty(0), np.empty(0)
+        if size == CHUNK:
+            low, high = self._top[channel]
+            return low[start // size : end // size], high[start // size : end // size]
+        first, last = start // CHUNK, -(-end // CHUNK)
+        both = self._files.level(number, channel, first, last)
+        offset = first * (CHUNK // size)
+        part = both[:, start // size - offset : end // size - offset]
+        return part[0], part[1]
