@@ -6,7 +6,7 @@ import asyncio
 import time
 from collections.abc import AsyncIterator, Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_map import Root, SymbolMap
@@ -14,7 +14,7 @@ from tappet.codegen.symbol_types import MemberInfo, TypeInfo
 from tappet.iec import places as iec_places
 from tappet.runtime import protocol
 from tappet.runtime.client import RuntimeEvent, RuntimeRefused
-from tappet.runtime.errors import NoApplicationError, PlcError
+from tappet.runtime.errors import NoApplicationError, NoTraceError, PlcError
 from tappet.runtime.exception_report import CallFrame, ExceptionReport
 from tappet.runtime.flight import FlightStatus
 from tappet.runtime.forces import Force, PlacedValue
@@ -25,6 +25,7 @@ from tappet.runtime.operations.declaration import Reply, WireOperation
 from tappet.runtime.operations.symbols import GetSymbols
 from tappet.runtime.places import Place, path_at
 from tappet.runtime.recorder import Frame
+from tappet.runtime.sampled import TraceStatus
 from tappet.runtime.service import refusal_code
 from tappet.runtime.source_archive import SourceInfo, SourceNote, SourceStore
 from tappet.runtime.source_transfer import send_source
@@ -231,6 +232,14 @@ class FakePlc:
             (Force(PlacedValue(place, data), data), path_at(symbols, place))
             for place, data in zip(places, self.forced.values(), strict=True)
         ]
+
+    def traces(self) -> list[TraceStatus]:
+        return []
+
+    def no_trace(self, *given: object) -> NoReturn:
+        raise NoTraceError("there is no trace")
+
+    download_trace = command_trace = remove_trace = take_trace = trace_settings = no_trace
 
     def flight_status(self) -> FlightStatus:
         self._need()

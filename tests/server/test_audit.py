@@ -29,6 +29,7 @@ OWN = "is a setting of one's own screen"
 EXEMPT = {
     "read_values": READS,
     "read_flight": READS,
+    "digest_trace": READS,
     "preview_files": READS,
     "compare_import": READS,
     "build": READS,

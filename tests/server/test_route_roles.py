@@ -62,6 +62,7 @@ OF_VIEWERS = {
     "/api/v1/runtimes/{runtime_id}/flight/read",
     "/api/v1/runtimes/{runtime_id}/recipes/compare",
     "/api/v1/runtimes/{runtime_id}/values/read",
+    "/api/v1/traces/digest",
 }
 """Who only looks may do these, too: read with a body, look after what is their own."""
 

@@ -51,6 +51,8 @@ from tappet.server.settings import ServerSettings
 from tappet.server.source import routes as routes_source
 from tappet.server.static import FrontEnd, find_static
 from tappet.server.static_analysis import routes as routes_static_analysis
+from tappet.server.traces import recording_routes as routes_recordings
+from tappet.server.traces import routes as routes_traces
 from tappet.server.tuning import routes as routes_tuning
 from tappet.server.unit_tests import routes as routes_tests
 from tappet.server.users import routes as routes_users
@@ -91,6 +93,9 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_cams.router,
     routes_running_cams.router,
     routes_tuning.router,
+    routes_traces.router,
+    routes_traces.settings_router,
+    routes_recordings.router,
     routes_events.router,
 )
 """One router per resource, all below `API`; the routes of wire operations come behind them."""

@@ -34,6 +34,7 @@ from tappet.server.runtimes.plc_client import Connect
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 from tappet.server.sockets import EndedSessions
 from tappet.server.tables import runtimes as runtimes_table
+from tappet.server.traces.service import Traces
 from tappet.server.tuning.evaluator import MeasurementEvaluator
 from tappet.server.unit_tests.service import TestRuns
 from tappet.server.views.service import ViewRegistry
@@ -59,6 +60,7 @@ class Services:
     commissioning: Commissioning
     cams: CamCalculator
     debug: DebugVariants
+    traces: Traces
     evaluator: MeasurementEvaluator = field(default_factory=MeasurementEvaluator)
     views: ViewRegistry = field(default_factory=ViewRegistry)
     ended_sessions: EndedSessions = field(default_factory=EndedSessions)
@@ -131,6 +133,7 @@ class Services:
         if self._analysis is not None:
             await self._analysis.close()
         await self.debug.close()
+        await self.traces.close()
         await self.views.close()
         await self.commissioning.builder.close()
         await self.cams.close()
@@ -183,6 +186,7 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
         commissioning=commissioning,
         cams=CamCalculator(objects),
         debug=DebugVariants(commissioning),
+        traces=Traces(settings.data_dir / "recordings", settings.recordings_gib << 30),
     )
     services.audit_reserve.try_move(database)
     if database.read(accounts.count) == 0:

@@ -53,6 +53,8 @@ class ServerSettings:
     """Longest time of one request to it, or of one step of a check; it starts again when that is exceeded."""
     analysis_idle_seconds: float = 300.0
     """It ends so long after the last editor of the project was closed."""
+    recordings_gib: int = 20
+    """Room that stored recordings of traces may take, in `data_dir`."""
     reconnect_seconds: float = 1.0
     """First pause before a lost runtime is tried again; doubles up to 15 s. So does that before a local one
     which did not start is started again, up to 30 s."""

@@ -146,7 +146,7 @@ class Derived:
         self._samples = samples
         self._channel = channel
         known = samples.channels[channel]
-        name = f"d/dt {known.name}" if operation == "derivative" else f"∫ {known.name} dt"
+        name = f"d({known.name})/dt" if operation == "derivative" else f"∫({known.name})dt"
         self.channels = [ChannelInfo(known.index, name, "LREAL", "f8")]
         self._operation = operation
 

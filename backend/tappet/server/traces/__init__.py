@@ -1,0 +1,1 @@
+"""Traces of runtimes and stored recordings: REST, live mirrors, long-term recording."""

@@ -1,0 +1,208 @@
+"""What diagrams ask of samples, the same for a running trace and for a stored recording."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeVar
+
+from fastapi import Query
+from fastapi.responses import FileResponse, Response, StreamingResponse
+from msgspec import structs
+from starlette.background import BackgroundTask
+from starlette.concurrency import run_in_threadpool
+
+from tappet.server.problems import Problem
+from tappet.server.traces.shapes import ChannelSpectrum, ChannelStatistics, ExportFormat
+from tappet.traces import analysis, formats, windows
+from tappet.traces.recording import RecordInfo
+from tappet.traces.samples import BatchSamples, Samples
+
+T = TypeVar("T")
+BINARY = "application/vnd.tappet.samples"
+MOST_SAMPLES = 1_000_000
+"""In one answer of raw samples, and of what is computed of a span as a whole."""
+RecordNumber = Annotated[int, Query(ge=0, le=1000)]
+ChannelNumber = Annotated[int, Query(ge=0, le=1000, description="Among the sampled channels.")]
+Start = Annotated[int | None, Query(alias="from", ge=0, lt=1 << 63, description="Unix time in ns.")]
+End = Annotated[int | None, Query(alias="to", ge=0, lt=1 << 63, description="Unix time in ns.")]
+Width = Annotated[int, Query(ge=1, le=windows.MOST_POINTS, description="Points of the diagram.")]
+Chosen = Annotated[str | None, Query(pattern=r"^\d{1,3}(,\d{1,3})*$", max_length=1000)]
+First = Annotated[int, Query(ge=0, lt=1 << 53)]
+Count = Annotated[int, Query(ge=1, le=MOST_SAMPLES)]
+Operation = Literal["derivative", "integral"]
+Smoothing = Annotated[analysis.WindowFunction, Query()]
+BINARY_ANSWER: dict[int | str, dict[str, Any]] = {
+    200: {
+        "content": {BINARY: {"schema": {"type": "string", "format": "binary"}}},
+        "description": "docs/trace.md",
+    }
+}
+FILE_ANSWER: dict[int | str, dict[str, Any]] = {
+    200: {
+        "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}},
+        "description": "File",
+    }
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """Samples of one record."""
+
+    samples: Samples
+    info: RecordInfo
+    first_number: int = 0
+    lock: AbstractContextManager[Any] = field(default_factory=nullcontext)
+
+    def channel(self, number: int) -> int:
+        """A channel; raises a 404 problem."""
+        if number >= len(self.samples.channels):
+            raise Problem(404, "not-found", f"The record '{self.info.name}' has no channel number {number}.")
+        return number
+
+
+async def _computed(shown: Shown, work: Callable[[], T]) -> T:
+    def locked() -> T:
+        with shown.lock:
+            return work()
+
+    return await run_in_threadpool(locked)
+
+
+def _numbers(chosen: str | None) -> list[int] | None:
+    return None if chosen is None else [int(text) for text in chosen.split(",")]
+
+
+async def window(
+    shown: Shown, start: int | None, end: int | None, width: int, chosen: str | None
+) -> Response:
+    """Samples of a time, or their extremes."""
+    data = await _computed(
+        shown,
+        lambda: windows.window(
+            shown.samples, start, end, width, _numbers(chosen),
+            trigger_ns=shown.info.trigger_ns, first_number=shown.first_number,
+        ),
+    )  # fmt: skip
+    return Response(data, media_type=BINARY)
+
+
+async def samples(shown: Shown, first: int, count: int) -> Response:
+    """Samples by number, each."""
+    start = min(max(0, first - shown.first_number), shown.samples.count)
+    stop = min(shown.samples.count, max(start, first - shown.first_number + count))
+    data = await _computed(
+        shown,
+        lambda: windows.points(
+            shown.samples, start, stop, 1, trigger_ns=shown.info.trigger_ns, first_number=shown.first_number
+        ),
+    )
+    return Response(data, media_type=BINARY)
+
+
+def _span(shown: Shown, start: int | None, end: int | None) -> tuple[int, int]:
+    """Numbers of the samples from a time to another one, both inclusive."""
+    first = 0 if start is None else shown.samples.search(start)
+    stop = shown.samples.count if end is None else shown.samples.search(end + 1)
+    return first, max(first, stop)
+
+
+async def statistics(shown: Shown, channel: int, start: int | None, end: int | None) -> ChannelStatistics:
+    """Least, largest and mean values of a span."""
+    number = shown.channel(channel)
+    found = await _computed(
+        shown, lambda: analysis.statistics(shown.samples, number, *_span(shown, start, end))
+    )
+    return ChannelStatistics.model_validate(structs.asdict(found))
+
+
+async def spectrum(
+    shown: Shown, channel: int, start: int | None, end: int | None, name: analysis.WindowFunction
+) -> ChannelSpectrum:
+    """Amplitudes of the sines that a span consists of."""
+    number = shown.channel(channel)
+    found = await _computed(
+        shown, lambda: analysis.spectrum(shown.samples, number, *_span(shown, start, end), name)
+    )
+    return ChannelSpectrum.model_validate(structs.asdict(found))
+
+
+async def derived(
+    shown: Shown, channel: int, operation: Operation, start: int | None, end: int | None, width: int
+) -> Response:
+    """The derivative or integral of a span."""
+    number = shown.channel(channel)
+
+    def work() -> bytes:
+        first, stop = _span(shown, start, end)
+        if stop - first > MOST_SAMPLES:
+            raise Problem(
+                422,
+                "span-too-long",
+                f"At most {MOST_SAMPLES} samples are computed at once; choose a shorter time.",
+            )
+        made = analysis.Derived(shown.samples, number, operation)
+        curve = BatchSamples(made.channels, made.batch(first, stop))
+        return windows.window(
+            curve,
+            None,
+            None,
+            width,
+            trigger_ns=shown.info.trigger_ns,
+            first_number=shown.first_number + first,
+        )
+
+    return Response(await _computed(shown, work), media_type=BINARY)
+
+
+async def export(
+    name: str,
+    application: str,
+    settings: dict[str, Any],
+    records: Sequence[Shown],
+    record: int,
+    form: ExportFormat,
+) -> Response:
+    """A file: CSV and Parquet of one record, a trace file of all."""
+    plain = name.encode("ascii", "replace").decode()
+    file_name = "".join(c if c.isalnum() or c in "-_ " else "_" for c in plain)[:100] or "trace"
+    headers = {"Content-Disposition": f'attachment; filename="{file_name}.{form}"'}
+    if form == "csv":
+        lines = _locked_lines(records[record])
+        return StreamingResponse(lines, media_type="text/csv; charset=utf-8", headers=headers)
+    path = Path(tempfile.mkdtemp(prefix="tappet-export-")) / f"export.{form}"
+
+    def write() -> None:
+        if form == "parquet":
+            with records[record].lock:
+                formats.write_parquet(records[record].samples, path)
+        else:
+            with records[0].lock if records else nullcontext():
+                formats.write_trace(path, name, application, settings, [(r.info, r.samples) for r in records])
+
+    def remove() -> None:
+        path.unlink(missing_ok=True)
+        path.parent.rmdir()
+
+    try:
+        await run_in_threadpool(write)
+    except BaseException:
+        remove()
+        raise
+    media = "application/vnd.apache.parquet" if form == "parquet" else "application/octet-stream"
+    return FileResponse(path, media_type=media, headers=headers, background=BackgroundTask(remove))
+
+
+def _locked_lines(shown: Shown) -> Iterator[bytes]:
+    """Lines of a recording that may grow meanwhile."""
+    lines = formats.csv_lines(shown.samples)
+    while True:
+        with shown.lock:
+            line = next(lines, None)
+        if line is None:
+            return
+        yield line

@@ -1,0 +1,197 @@
+"""Traces: download, state, snapshots and recordings, for the routes."""
+
+from __future__ import annotations
+
+import asyncio
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from tappet.project.trace import TraceData
+from tappet.runtime.operations.tasks import ListTasks
+from tappet.runtime.operations.traces import DownloadTrace, UploadTrace
+from tappet.runtime.sampled import TraceSpec, TraceStatus
+from tappet.runtime.trace_compiler import TraceSettingsError, TraceTask, compile_trace
+from tappet.runtime.trace_record import TraceRecordStatus
+from tappet.server.problems import Problem
+from tappet.server.runtimes.links import RuntimeLink
+from tappet.server.traces.answers import Shown
+from tappet.server.traces.mirror import Mirrors, RecordMirror, TraceMirror
+from tappet.server.traces.recorder import LongRecordings, record_infos
+from tappet.server.traces.shapes import (
+    Recording,
+    RecordingInfo,
+    RecordingRecord,
+    RunningRecord,
+    SampledChannel,
+    TraceProblem,
+    TraceState,
+    TriggerState,
+)
+from tappet.server.traces.store import RecordingStore, StoredRecording
+from tappet.traces.recording import RecordInfo
+from tappet.traces.samples import ChannelInfo
+
+
+class Traces:
+    """What the server knows of traces."""
+
+    def __init__(self, folder: Path, quota_bytes: int) -> None:
+        self.mirrors = Mirrors()
+        self.store = RecordingStore(folder, quota_bytes)
+        self.recordings = LongRecordings(self.store)
+
+    async def close(self) -> None:
+        """End what is being recorded."""
+        await self.recordings.close()
+
+    def state(self, link: RuntimeLink, status: TraceStatus) -> TraceState:
+        """The state for clients."""
+        long = self.recordings.of(link.id, status.name)
+        lost = long.lost() if long is not None else [0] * len(status.records)
+        recording = None if long is None else recording_info(self.store.get(long.id))
+        return TraceState(
+            name=status.name,
+            application=status.application,
+            data_digest=status.digest,
+            running=any(record.state != "stopped" for record in status.records),
+            downloaded_at=datetime.fromtimestamp(status.downloaded_ns / 1e9, UTC),
+            downloaded_by=status.author,
+            recording=recording,
+            records=[_running(record, gone) for record, gone in zip(status.records, lost, strict=True)],
+        )
+
+    async def snapshot(self, mirror: TraceMirror, **fields: Any) -> StoredRecording:
+        """Store what a trace holds now."""
+        records = await mirror.records()
+        status = mirror.status
+        assert status is not None
+
+        def work() -> StoredRecording:
+            recording = self.store.create(records=record_infos(status), ended_at=datetime.now(UTC), **fields)
+            for number, record in enumerate(records):
+                recording.append(number, record.picture())
+            recording.flush()
+            return recording
+
+        return await asyncio.to_thread(work)
+
+
+def compiled(link: RuntimeLink, name: str, data: TraceData, tasks: list[TraceTask], author: str) -> TraceSpec:
+    """What the runtime gets; raises a 422 problem that says what is wrong with the settings."""
+    symbols = link.loaded_symbols()
+    code_id = link.info.code_id if link.info is not None else None
+    try:
+        return compile_trace(name, data, symbols, tasks, code_id or "", author)
+    except TraceSettingsError as error:
+        problems = [
+            TraceProblem(record=p.record, channel=p.channel, field=p.field, message=p.message)
+            for p in error.problems
+        ]
+        text = f"The trace '{name}' cannot be downloaded: {problems[0].message}."
+        raise Problem(422, "trace-invalid", text, problems=problems) from error
+
+
+async def tasks_of(link: RuntimeLink) -> list[TraceTask]:
+    """The tasks of the loaded application."""
+    async with link.client() as client:
+        found = await client.call(ListTasks())
+    return [TraceTask(t.name, t.interval_ns if t.kind == "cyclic" else 0) for t in found]
+
+
+async def download(link: RuntimeLink, spec: TraceSpec, *, start: bool) -> TraceStatus:
+    """Give a trace to the runtime."""
+    async with link.client() as client:
+        return await client.call(DownloadTrace(spec, start))
+
+
+async def settings_of(link: RuntimeLink, name: str) -> TraceData:
+    """The settings that were downloaded with a trace; raises 404 and 409 problems."""
+    async with link.client() as client:
+        data = await client.call(UploadTrace(name))
+    try:
+        return TraceData.model_validate_json(data)
+    except ValueError as error:
+        text = f"The settings of the trace '{name}' are of another version."
+        raise Problem(409, "trace-unreadable", text) from error
+
+
+def _channels(channels: list[ChannelInfo]) -> list[SampledChannel]:
+    return [SampledChannel(index=c.index, name=c.name, type=c.type) for c in channels]
+
+
+def _running(record: TraceRecordStatus, lost: int) -> RunningRecord:
+    waits = record.state in ("waiting", "triggered", "done")
+    percent = 0
+    if record.trigger_sample is not None:
+        percent = 100 if not record.after else round(100 * (record.after - record.remaining) / record.after)
+    at = None if record.trigger_ns is None else str(record.trigger_ns)
+    return RunningRecord(
+        name=record.name,
+        task=record.task,
+        interval_ns=record.interval_ns,
+        state=record.state,
+        trigger=TriggerState(percent=percent, at_ns=at) if waits else None,
+        samples=record.written,
+        first=record.first,
+        capacity=record.samples,
+        lost=lost,
+        channels=[SampledChannel(index=s.channel, name=s.name, type=s.type_name) for s in record.sources],
+    )
+
+
+def recording_info(recording: StoredRecording) -> RecordingInfo:
+    """A recording for clients."""
+    return RecordingInfo(**_facts(recording))
+
+
+def recording_with_settings(recording: StoredRecording) -> Recording:
+    """A recording with the settings of its trace."""
+    return Recording(**_facts(recording), data=TraceData.model_validate(recording.meta.settings))
+
+
+def _facts(recording: StoredRecording) -> dict[str, Any]:
+    meta = recording.meta
+    kept = (
+        "id", "title", "comment", "trace", "application", "runtime_id", "runtime", "project_id", "started_at",
+        "ended_at", "started_by", "state", "problem", "lost",
+    )  # fmt: skip
+    facts = {name: getattr(meta, name) for name in kept}
+    return {**facts, "bytes": recording.bytes, "records": _recorded(recording)}
+
+
+def _recorded(recording: StoredRecording) -> list[RecordingRecord]:
+    found = []
+    with recording.lock:
+        for info, samples in zip(recording.meta.records, recording.records, strict=True):
+            count = samples.count
+            ends = [str(int(samples.times(n, n + 1)[0])) if count else None for n in (0, max(0, count - 1))]
+            found.append(
+                RecordingRecord(
+                    name=info.name,
+                    task=info.task,
+                    interval_ns=info.interval_ns,
+                    samples=count,
+                    first_ns=ends[0],
+                    last_ns=ends[1],
+                    trigger_ns=None if info.trigger_ns is None else str(info.trigger_ns),
+                    channels=_channels(info.channels),
+                )
+            )
+    return found
+
+
+def shown_mirror(record: RecordMirror) -> Shown:
+    """The samples of a running record."""
+    status = record.status
+    info = RecordInfo(
+        status.name, status.task, status.interval_ns, status.every, record.channels, status.trigger_ns
+    )
+    return Shown(record.samples(), info, record.first)
+
+
+def shown_recording(recording: StoredRecording, record: int) -> Shown:
+    """The samples of a stored record; raises a 404 problem."""
+    if record >= len(recording.records):
+        raise Problem(404, "not-found", f"The recording has no record number {record}.")
+    return Shown(recording.records[record], recording.meta.records[record], 0, recording.lock)
