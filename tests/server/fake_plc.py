@@ -20,6 +20,7 @@ from tappet.runtime.flight import FlightStatus
 from tappet.runtime.forces import Force, PlacedValue
 from tappet.runtime.image import ImageMemory
 from tappet.runtime.logbook import LogEntry
+from tappet.runtime.monitoring import Load, LoadHistory
 from tappet.runtime.operations import registry
 from tappet.runtime.operations.declaration import Reply, WireOperation
 from tappet.runtime.operations.symbols import GetSymbols
@@ -232,6 +233,9 @@ class FakePlc:
             (Force(PlacedValue(place, data), data), path_at(symbols, place))
             for place, data in zip(places, self.forced.values(), strict=True)
         ]
+
+    def load_since(self, at_ns: int) -> Load:
+        return LoadHistory().since(at_ns)
 
     def traces(self) -> list[TraceStatus]:
         return []

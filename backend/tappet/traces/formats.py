@@ -160,12 +160,12 @@ class TraceReader:
         except (zipfile.BadZipFile, KeyError, OSError, NotImplementedError, RuntimeError) as error:
             raise TraceFileError("this is no trace file: it is no archive with a trace.json") from error
         except (msgspec.MsgspecError, json.JSONDecodeError, UnicodeDecodeError) as error:
-            raise TraceFileError(f"trace.json cannot be read: {error}") from error
+            raise TraceFileError(f"the description in the file cannot be read: {error}") from error
         head = self.head
         if head.format != "tappet-trace" or head.version > VERSION:
             raise TraceFileError("the file is of a newer version, or of another program")
         if len(head.records) != len(head.samples) or min(head.samples, default=0) < 0:
-            raise TraceFileError("trace.json does not say how many samples each record has")
+            raise TraceFileError("the file does not say how many samples each record has")
         for channel in (c for record in head.records for c in record.channels):
             if channel.number not in _NUMBERS:
                 raise TraceFileError(f"the channel '{channel.name}' has values of an unknown type")
