@@ -116,6 +116,12 @@ COMMANDS = (
         "Install a library beside those that are there; the same version is replaced.",
     ),
     Command(("library", "remove"), "library", "remove", "Uninstall one version of a library."),
+    Command(
+        ("trace",),
+        "trace",
+        "trace",
+        "Record a trace of a project, in a runtime or on virtual time, to a file.",
+    ),
     Command(("deploy",), "deploy", "deploy", "Build an application, download it to a runtime and start it."),
     Command(
         ("source", "show"),

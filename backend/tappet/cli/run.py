@@ -58,7 +58,7 @@ def run(given: Namespace) -> int:
         raise UsageError("give either --cycles or --time")
     if given.trace is not None and not given.show:
         raise UsageError("--trace needs the variables to record: give them with --print")
-    time_ns = _duration(given.time) if given.time is not None else None
+    time_ns = duration(given.time) if given.time is not None else None
     package = _build(given.path, given.application, given.format)
     if package is None:
         return 1
@@ -92,7 +92,8 @@ def run(given: Namespace) -> int:
     return 1 if failed else 0
 
 
-def _duration(text: str) -> int:
+def duration(text: str) -> int:
+    """Nanoseconds of `--time`. Raises UsageError."""
     from tappet.project.durations import duration_ns
     from tappet.project.errors import InvalidTimeError
 

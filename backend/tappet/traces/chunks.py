@@ -44,6 +44,7 @@ class ChunkFiles:
         self._samples = folder / f"record{record}.samples"
         self._levels = [folder / f"record{record}.by{size}" for size in LEVELS]
         self._tail = folder / f"record{record}.tail.npz"
+        self._maps: dict[Path, npt.NDArray[Any]] = {}
 
     @property
     def chunk_size(self) -> int:
@@ -88,34 +89,36 @@ class ChunkFiles:
         )
         return np.array([[low[0], high[0]] for low, high in pairs[-1]]).reshape(len(self.channels), 2)
 
+    def _mapped(self, path: Path, dtype: Any, shape: tuple[int, ...], count: int) -> npt.NDArray[Any]:
+        """The first chunks of a file, at least `count`; mapped again when the file has grown."""
+        found = self._maps.get(path)
+        if found is None or len(found) < count:
+            found = self._maps[path] = np.memmap(path, dtype, "r", 0, (count, *shape))
+        return found
+
+    def _column(self, number: int, count: int) -> npt.NDArray[Any]:
+        """A column as a table of chunks."""
+        dtype, start = self.dtypes[number], self.offsets[number]
+        raw = self._mapped(self._samples, np.uint8, (self.chunk_size,), count)
+        return raw[:, start : start + dtype.itemsize * CHUNK].view(dtype)
+
     def column(self, number: int, first: int, last: int) -> npt.NDArray[Any]:
         """A column of chunks `first` to `last`: cycle, time, gap, then the channels."""
-        dtype = self.dtypes[number]
         if last <= first:
-            return np.empty(0, dtype)
-        raw = np.memmap(
-            self._samples, np.uint8, "r", first * self.chunk_size, (last - first, self.chunk_size)
-        )
-        start = self.offsets[number]
-        return raw[:, start : start + dtype.itemsize * CHUNK].copy().view(dtype).reshape(-1)
+            return np.empty(0, self.dtypes[number])
+        return self._column(number, last)[first:last].reshape(-1)
 
     def at(self, number: int, samples: Integers) -> npt.NDArray[Any]:
         """Single values of a column."""
-        dtype = self.dtypes[number]
-        count = int(samples[-1]) // CHUNK + 1
-        raw: npt.NDArray[Any] = np.memmap(self._samples, np.uint8, "r", 0, (count, self.chunk_size))
-        start = self.offsets[number]
-        column = raw[:, start : start + dtype.itemsize * CHUNK].view(dtype)
+        column = self._column(number, int(samples[-1]) // CHUNK + 1)
         return np.asarray(column[samples // CHUNK, samples % CHUNK])
 
     def level(self, number: int, channel: int, first: int, last: int) -> Reals:
         """Least and largest values of the blocks of a level in chunks `first` to `last`: two rows."""
-        blocks = CHUNK // LEVELS[number]
-        size = len(self.channels) * 2 * blocks
-        shape = (last - first, len(self.channels), 2, blocks)
         if last <= first:
             return np.empty((2, 0))
-        raw: npt.NDArray[Any] = np.memmap(self._levels[number], np.float64, "r", first * size * 8, shape)
+        shape = (len(self.channels), 2, CHUNK // LEVELS[number])
+        raw = self._mapped(self._levels[number], np.float64, shape, last)[first:last]
         return np.ascontiguousarray(raw[:, channel].transpose(1, 0, 2)).reshape(2, -1)
 
     def keep_tail(self, batch: Batch) -> None:
@@ -156,7 +159,10 @@ class StoredSamples:
         self._tail = self._files.kept_tail()
         tops = [self._files.level(len(LEVELS) - 1, c, 0, self._chunks) for c in range(len(channels))]
         self._top = [list(top) for top in tops]
-        self._begins = self._files.column(1, 0, self._chunks)[::CHUNK].tolist()
+        edges = np.arange(self._chunks, dtype=np.int64) * CHUNK
+        self._begins = self._files.at(1, edges).tolist() if self._chunks else []
+        self._ends = self._files.at(1, edges + CHUNK - 1).tolist() if self._chunks else []
+        self._gaps = self._files.at(2, edges).tolist() if self._chunks else []
         self._drop_written()
 
     def _drop_written(self) -> None:
@@ -195,6 +201,8 @@ class StoredSamples:
                 kept = self._top[channel]
                 self._top[channel] = [np.append(kept[0], low), np.append(kept[1], high)]
             self._begins.append(int(part.time[0]))
+            self._ends.append(int(part.time[-1]))
+            self._gaps.append(int(part.gap[0]))
             self._chunks += 1
             start += CHUNK
         self._tail = waiting.part(start, len(waiting))
@@ -240,7 +248,18 @@ class StoredSamples:
         behind = int(np.searchsorted(samples, stored))
         if not behind:
             return tail[samples - stored]
-        return np.concatenate([self._files.at(number, samples[:behind]), tail[samples[behind:] - stored]])
+        return np.concatenate([self._inside(number, samples[:behind]), tail[samples[behind:] - stored]])
+
+    def _inside(self, number: int, samples: Integers) -> npt.NDArray[Any]:
+        """The same of complete chunks, whose edges are in memory."""
+        chunks, places = samples // CHUNK, samples % CHUNK
+        if number == 1 and not places.any():
+            return np.asarray(self._begins, np.int64)[chunks]
+        if number == 1 and (places == CHUNK - 1).all():
+            return np.asarray(self._ends, np.int64)[chunks]
+        if number == 2 and not places.any():
+            return np.asarray(self._gaps, np.uint8)[chunks]
+        return self._files.at(number, samples)
 
     def times_at(self, numbers: Integers) -> Integers:
         """Unix times of single samples."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 import asyncio
 import time
 
-from tappet.runtime.operations.traces import ListTraces, TakeTrace
+from tappet.runtime.operations.traces import ListTraces
 from tappet.runtime.sampled import TraceStatus
 from tappet.runtime.trace_record import TraceRecordStatus
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.plc_client import PlcClient
-from tappet.traces.samples import Batch, BatchSamples, batch_of, channels_of, empty_batch, joined
+from tappet.traces.reader import RecordReader
+from tappet.traces.samples import Batch, BatchSamples, channels_of, empty_batch, joined
 
 FRESH_S = 0.05
 """What was read so short a time ago is given to the next one who asks."""
@@ -28,35 +29,6 @@ async def running_traces(link: RuntimeLink) -> list[TraceStatus]:
     """All traces of a runtime; none without application."""
     async with link.client() as client:
         return await client.call(ListTraces())
-
-
-class RecordReader:
-    """Reads the samples of a record one after the other."""
-
-    def __init__(self, name: str, number: int, status: TraceRecordStatus, first: int) -> None:
-        self._name = name
-        self._number = number
-        self._status = status
-        self.next = first
-        self.lost = 0
-        """Samples that were overwritten before they were read."""
-        self._last_cycle: int | None = None
-
-    async def read(self, client: PlcClient, until: int) -> list[Batch]:
-        """Those up to number `until`."""
-        batches = []
-        status = self._status
-        while self.next < until:
-            frames = await client.call(TakeTrace(self._name, self._number, self.next, until - self.next))
-            self.lost += max(0, min(frames.first, until) - self.next)
-            if not frames.count:
-                self.next = max(self.next, min(frames.first, until))
-                break
-            batch = batch_of(frames.data, status.sources, status.frame_size, status.every, self._last_cycle)
-            self._last_cycle = int(batch.cycle[-1])
-            self.next = frames.first + frames.count
-            batches.append(batch)
-        return batches
 
 
 class RecordMirror:

@@ -14,8 +14,8 @@ from tappet.runtime.operations.traces import ListTraces
 from tappet.runtime.sampled import TraceStatus
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
-from tappet.server.traces.mirror import RecordReader
 from tappet.server.traces.store import RecordingStore, StoredRecording
+from tappet.traces.reader import RecordReader
 from tappet.traces.recording import RecordInfo
 from tappet.traces.samples import channels_of
 

@@ -1,0 +1,25 @@
+"""The rules and examples of `trace` that the runtime, the server and the files have are bound to tests.
+
+Those of the editor are bound by its own tests.
+"""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+KNOWN = (ROOT / "docs/requirements/trace.md").read_text(encoding="utf-8")
+with (Path(__file__).parent / "data" / "trace_ids.csv").open(encoding="utf-8") as file:
+    RULES = {row["id"]: row["shown_by"] for row in csv.DictReader(file)}
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_rule_is_bound_to_a_test(rule: str) -> None:
+    assert rule in KNOWN, f"trace.md has no {rule}"
+    for reference in RULES[rule].split():
+        path, _, name = reference.partition("::")
+        text = (ROOT / path).read_text(encoding="utf-8")
+        assert f"def {name}(" in text, f"{path} has no {name}"
