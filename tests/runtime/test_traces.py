@@ -365,3 +365,35 @@ def test_a_reader_that_is_late_learns_what_is_overwritten() -> None:
         frames = runtime.plc.take_trace("Trace", 0, 0, 1000)
         assert frames.first == 1000 - frames.count > 900
         assert frames.count >= 10
+
+
+PROPERTY = """
+FUNCTION_BLOCK FB
+VAR n : INT; END_VAR
+{attribute 'monitoring' := 'call'}
+PROPERTY Twice : INT
+GET
+Twice := 2 * n;
+END_GET
+END_PROPERTY
+n := n + 1;
+END_FUNCTION_BLOCK
+PROGRAM PLC_PRG
+VAR fb : FB; END_VAR
+fb();
+END_PROGRAM
+"""
+
+
+def test_properties_are_sampled_and_trigger() -> None:
+    """TRC-20, TRC-40: Get is called in the cycle, also for a property that only the trigger reads."""
+    with LocalRuntime(build(PROPERTY)) as runtime:
+        traced(runtime, "PLC_PRG.fb.Twice", "PLC_PRG.fb.n", buffer=10)
+        runtime.run(cycles=10)
+        assert column(runtime)[1:] == [2 * n for n in column(runtime, 1)][1:]
+        runtime.plc.remove_trace("Trace")
+        trigger = {"variable": "PLC_PRG.fb.Twice", "edge": "positive", "level": "50", "position": 0}
+        traced(runtime, "PLC_PRG.fb.n", buffer=10, trigger=trigger)
+        runtime.run(cycles=30)
+        assert status(runtime).state == "done"
+        assert column(runtime)[-1] == 25

@@ -20,6 +20,9 @@ from server_clients import CHEAP, PASSWORD, browser, serving
 
 from tappet.server.app import create_app
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
+from tappet.traces.formats import write_trace
+from tappet.traces.recording import RecordInfo
+from tappet.traces.samples import Batch, BatchSamples, ChannelInfo
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "traces"))
 from sampled_batches import read_window
@@ -319,6 +322,29 @@ def test_files_and_stored_recordings(client: TestClient, tmp_path: Path, project
     assert client.get(f"{url}/window").status_code == 404
     bad = client.post(RECORDINGS, content=b"no trace")
     assert bad.json()["type"] == "urn:tappet:problem:trace-file-invalid"
+
+
+def test_a_file_may_be_larger_than_other_requests(client: TestClient, tmp_path: Path) -> None:
+    count = 1_200_000
+    values = np.random.default_rng(1).normal(size=count)
+    cycle = np.arange(count)
+    channels = [ChannelInfo(0, "v", "LREAL", "f8")]
+    long = BatchSamples(channels, Batch(cycle, cycle * 1_000_000, np.zeros(count, np.uint8), [values]))
+    info = RecordInfo("Record1", "Main", 1_000_000, 1, channels)
+    write_trace(tmp_path / "a.trace", "Long", "App", DATA, [(info, long)])
+    data = (tmp_path / "a.trace").read_bytes()
+    assert len(data) > traced_limit(client)
+    loaded = client.post(RECORDINGS, content=data)
+    assert loaded.status_code == 201, loaded.text
+    url = f"{RECORDINGS}/{loaded.json()['id']}"
+    found = _window(client, url, width=100)
+    assert max(found["high"][0]) == values.max()
+    assert client.delete(url).status_code == 204
+
+
+def traced_limit(client: TestClient) -> int:
+    limit: int = client.app.state.services.settings.max_body_bytes  # type: ignore[attr-defined]
+    return limit
 
 
 def test_the_quota_is_kept(traced_app: FastAPI, client: TestClient) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import numpy as np
 from msgspec import Meta, Struct
 
-from tappet.codegen.expressions.program import ExpressionProgram
+from tappet.codegen.expressions.program import KIND_SIZE, Base, ExpressionProgram, Kind, Op
 from tappet.codegen.symbol_types import Bit
 from tappet.runtime.executive.records import Block, Record
 from tappet.runtime.expressions import ExpressionMemory, NativeExpression, memory_of
@@ -134,6 +134,15 @@ def frame_dtype(sources: list[TraceSource], frame_size: int) -> np.dtype[np.void
     return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": frame_size})
 
 
+def loaded_places(program: ExpressionProgram) -> list[tuple[int, int]]:
+    """Offset and size of what an expression reads of the image, but for what addresses lead to."""
+    return [
+        (step.a, KIND_SIZE[Kind(step.kind)])
+        for step in program.steps
+        if step.op == Op.LOAD and step.b == Base.IMAGE
+    ]
+
+
 class NativeTraceRecord:
     """A TRACE_RECORD of the executive. Lives as long as the object."""
 
@@ -145,9 +154,11 @@ class NativeTraceRecord:
         places = [(s.offset or 0, s.size) for s in spec.sources if s.program is None]
         for offset, size in places:
             image.check(offset, size)
-        self.places = tuple(places)
-        """What is read of the image."""
         expressions = [s.program for s in spec.sources if s.program is not None]
+        conditions = [p for p in (spec.condition, spec.rise, spec.fall) if p is not None]
+        loaded = {place for program in (*expressions, *conditions) for place in loaded_places(program)}
+        self.places = (*places, *sorted(loaded))
+        """What is read of the image: properties that are monitored by a call are kept up to date."""
         values = 8 * len(expressions) + sum(size for _, size in places)
         self.frame_size = HEADER_SIZE + -(-values // 8) * 8
         reserve = min(spec.reserve, MOST_RESERVE // self.frame_size)

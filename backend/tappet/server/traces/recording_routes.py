@@ -36,6 +36,12 @@ router = Router(prefix="/recordings", tags=["traces"])
 LARGEST_UPLOAD = 2 << 30
 """Bytes of a trace file."""
 _IN_MEMORY = 8 << 20
+_UPLOAD = {
+    "requestBody": {
+        "required": True,
+        "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}},
+    }
+}
 RecordingId = Annotated[str, Path(pattern="^[0-9a-f]{32}$")]
 
 
@@ -66,8 +72,7 @@ def list_recordings(
     return RecordingList(recordings=found, used_bytes=store.used(), quota_bytes=store.quota_bytes)
 
 
-@router.post("", status_code=201, openapi_extra={"requestBody": {"required": True, "content": {
-    "application/octet-stream": {"schema": {"type": "string", "format": "binary"}}}}})  # fmt: skip
+@router.post("", status_code=201, max_body_size=LARGEST_UPLOAD, openapi_extra=_UPLOAD)
 async def load_trace(
     request: Request,
     act: Annotated[ActRecord, audited("trace-loaded", Role.ENGINEER)],
