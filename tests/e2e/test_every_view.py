@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, Locator, expect
 
 from . import motion_dialogs as motion_dialogs  # its tours
 from . import recipe_dialogs as recipe_dialogs  # its tour
+from . import trace_dialogs as trace_dialogs
 from .axe import serious_in_both_themes
 from .conftest import Server, new_profile, start_page
 from .dialog_titles import dialog_titles

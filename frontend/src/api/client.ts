@@ -148,6 +148,25 @@ export async function requestAny(verb: Method, path: string, body: unknown, sign
   return /\bjson\b/.test(response.headers.get('content-type') ?? '') ? (JSON.parse(data) as unknown) : data;
 }
 
+/** As `requestAny`, for an answer that is no text. */
+export async function requestBytes(path: string, signal: AbortSignal): Promise<ArrayBuffer> {
+  const init = { signal, parseAs: 'arrayBuffer', baseUrl: location.origin };
+  const answer: unknown = await client.request('get', path as never, init as never);
+  return (answer as { data: ArrayBuffer }).data;
+}
+
+/** Sends a file as it is, not as a form; resolves with the data of the answer. */
+export async function sendFile(path: string, file: Blob): Promise<unknown> {
+  const init = {
+    body: file,
+    bodySerializer: (body: Blob) => body,
+    headers: { 'Content-Type': 'application/octet-stream' },
+    baseUrl: location.origin,
+  };
+  const answer: unknown = await client.request('post', path as never, init as never);
+  return (answer as { data?: unknown }).data;
+}
+
 /** Address of a WebSocket below `/api/v1`, with the page's own host and scheme. */
 export function socketUrl(path: `/${string}`, query: Record<string, string> = {}): string {
   const scheme = location.protocol === 'https:' ? 'wss:' : 'ws:';

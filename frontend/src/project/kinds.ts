@@ -86,6 +86,8 @@ export interface ObjectKindDescriptor {
   /** Icon of one object where it depends on more than kind and subkind. */
   iconOf?: (name: string) => IconComponent;
   subkinds?: Readonly<Record<string, Subkind>>;
+  /** What it does in the controller, behind its name in the tree. */
+  state?: ComponentType<{ projectId: string; object: ObjectSummary }>;
   /** Opens in a tab; without one a double click opens or closes the row in the tree. */
   editor?: ComponentType<EditorProps>;
   /** Shows what holds in a project without an object of the kind; `readOnly` says why none can be made. */

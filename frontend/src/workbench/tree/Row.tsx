@@ -1,3 +1,4 @@
+import { useProject } from '@/project/openProject';
 import { kindOf } from '@/project/kinds';
 import { CloudUpload, Zap } from 'lucide-react';
 import { useRef, useState, type KeyboardEvent } from 'react';
@@ -101,6 +102,7 @@ export function TreeRow({
 /** What the object is, in the short form that the field uses: PRG, FB, FUN; for applications their state online. */
 function Suffix({ object, tone }: { object: ObjectSummary; tone: OnlineTone | undefined }) {
   const t = useText();
+  const { projectId } = useProject();
   if (tone) {
     return (
       <span className={styles.state}>
@@ -111,7 +113,10 @@ function Suffix({ object, tone }: { object: ObjectSummary; tone: OnlineTone | un
       </span>
     );
   }
-  const short = kindOf(object.kind)?.subkinds?.[object.subkind ?? '']?.short;
+  const kind = kindOf(object.kind);
+  const State = kind?.state;
+  if (State && projectId !== null) return <State projectId={projectId} object={object} />;
+  const short = kind?.subkinds?.[object.subkind ?? '']?.short;
   return short ? <span className={styles.suffix}>({short})</span> : null;
 }
 
