@@ -30,6 +30,7 @@ export function someSession(state: RuntimeState['state'], changes: Partial<Onlin
     runtime,
     lostSince: null,
     pacedMs: null,
+    past: null,
     ...changes,
   };
 }

@@ -37,10 +37,10 @@ function contrast(a: Rgb, b: Rgb): number {
   return (light + 0.05) / (dark + 0.05);
 }
 
-const TEXT = ['fg', 'fg-muted', 'accent', 'ok', 'warn', 'error', 'forced', 'prepared', 'true', 'false'];
+const TEXT = ['fg', 'fg-muted', 'accent', 'ok', 'warn', 'error', 'forced', 'prepared', 'past', 'true', 'false'];
 const GROUNDS = ['bg', 'bg-raised', 'bg-sunken', 'bg-float'];
 /** Soft grounds carry text of their own colour: stripes, badges, pills. */
-const SOFT = ['ok', 'warn', 'error', 'forced', 'prepared', 'true'];
+const SOFT = ['ok', 'warn', 'error', 'forced', 'prepared', 'past', 'true'];
 
 describe.each(['light', 'dark'])('%s theme', (theme) => {
   const all = tokens(theme);

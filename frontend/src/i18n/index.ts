@@ -18,6 +18,7 @@ import type help from './en/help.json';
 import type libraries from './en/libraries.json';
 import type objects from './en/objects.json';
 import type online from './en/online.json';
+import type past from './en/past.json';
 import type scripts from './en/scripts.json';
 import type search from './en/search.json';
 import type tests from './en/tests.json';
@@ -36,6 +37,7 @@ export interface TextTables {
   libraries: typeof libraries;
   objects: typeof objects;
   online: typeof online;
+  past: typeof past;
   scripts: typeof scripts;
   search: typeof search;
   tests: typeof tests;

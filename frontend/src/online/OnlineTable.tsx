@@ -20,6 +20,7 @@ import { copyChosen } from './copyRows';
 import { NameCell } from './NameCell';
 import styles from './OnlineTable.module.css';
 import { PreparedCell, PreparedEditor } from './PreparedCell';
+import { refusePast } from './past/refuse';
 import { symbolKey } from './rowMenu';
 import { togglePrepared } from './toggle';
 import { flatten, isExpandable, watchedExpressions, type OnlineRoot, type OnlineRow } from './treeRows';
@@ -105,6 +106,7 @@ export function OnlineTable(props: OnlineTableProps) {
     else if (columnOf(cell) === 'expression' && isExpandable(row)) toggleOpen(row);
     else if (runtimeId !== null && row.valueless !== true && !isExpandable(row)) {
       const column = columns.findIndex((c) => c.id === 'prepared');
+      if (refusePast(runtimeId)) return;
       if (cell.initial === undefined && togglePrepared(runtimeId, row.expression)) return;
       setEditing({ ...cell, column });
     }

@@ -27,6 +27,7 @@ function setUp() {
       state: (state: RuntimeState) => log.push(`state ${state.code_id ?? ''}`),
       forces: (paths) => log.push(`forces ${paths.join()}`),
       lost: () => log.push('lost'),
+      looked: (cycle, problem) => log.push(`looked ${String(cycle)} ${problem ?? ''}`.trim()),
       paced: (intervalMs) => paces.push(intervalMs),
     },
     environment,
@@ -110,6 +111,61 @@ describe('online channel', () => {
     sockets[2]?.accept();
     expect(log).toEqual(['lost']);
     expect(sockets[2]?.sent[0]).toMatchObject({ op: 'subscribe', expressions: ['P.a'] });
+  });
+
+  it('shows only frames of the time that the server has turned to', () => {
+    const { channel, sockets, board, log } = setUp();
+    const socket = sockets[0]!;
+    socket.accept();
+    channel.watch(['P.a'], 100);
+    socket.answer(1, ['P.a']);
+    const frame = (flags: number, cycle: number, value: number) => {
+      const bytes = new Uint8Array(25);
+      const view = new DataView(bytes.buffer);
+      view.setUint32(0, 1, true);
+      view.setUint32(4, flags, true);
+      view.setBigUint64(8, BigInt(cycle), true);
+      bytes[24] = value;
+      socket.onmessage?.({ data: bytes.buffer });
+    };
+    const value = () => board.get('P.a')?.value;
+    frame(0, 900, 1);
+    expect(value()).toBe(true);
+    channel.lookBack(700);
+    expect(socket.sent.at(-1)).toEqual({ op: 'look_back', cycle: 700 });
+    socket.say({ op: 'looked_back', cycle: 700, problem: null });
+    frame(0, 901, 1);
+    frame(1, 699, 1);
+    frame(1, 700, 0);
+    expect(value()).toBe(false);
+    frame(0, 902, 1);
+    frame(1, 699, 1);
+    expect(value()).toBe(false);
+    socket.say({ op: 'looked_back', cycle: null, problem: null });
+    frame(1, 700, 0);
+    frame(0, 903, 1);
+    expect(value()).toBe(true);
+    frame(1, 700, 0);
+    expect(value()).toBe(true);
+    socket.say({ op: 'looked_back', cycle: null, problem: 'cycle 5 is not kept' });
+    expect(log).toEqual(['looked 700', 'looked null', 'looked null cycle 5 is not kept']);
+  });
+
+  it('shows live values again after a lost connection', () => {
+    const { channel, sockets, board, elapse } = setUp();
+    sockets[0]?.accept();
+    channel.watch(['P.a'], 100);
+    sockets[0]?.answer(1, ['P.a']);
+    sockets[0]?.say({ op: 'looked_back', cycle: 700, problem: null });
+    sockets[0]?.drop();
+    elapse();
+    sockets[1]?.accept();
+    sockets[1]?.answer(2, ['P.a']);
+    const bytes = new Uint8Array(25);
+    new DataView(bytes.buffer).setUint32(0, 2, true);
+    bytes[24] = 1;
+    sockets[1]?.onmessage?.({ data: bytes.buffer });
+    expect(board.get('P.a')?.value).toBe(true);
   });
 
   it('takes a new layout for the same subscription after a download', () => {

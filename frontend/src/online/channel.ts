@@ -9,13 +9,15 @@ import { language } from '@/i18n';
 import { BROWSER_SOCKETS, ReconnectingSocket, type SocketEnvironment } from '@/api/socket';
 import type { ImagePlace, RuntimeState } from '@/api/types';
 import type { ValueBoard } from './board';
-import { readFrame } from './frame';
+import { isPast, readFrame } from './frame';
 import { expressionKey, type SubscribedItem } from './item';
 
 export interface ChannelEvents {
   state: (state: RuntimeState) => void;
   forces: (expressions: readonly string[], places: readonly ImagePlace[]) => void;
   lost: () => void;
+  /** Values are those of this past cycle from now on, null: live ones; or why the one asked for cannot be shown. */
+  looked: (cycle: number | null, problem: string | null) => void;
   /** The longest interval at which values come now in place of a shorter one that was asked for; null: all as asked. */
   paced: (intervalMs: number | null) => void;
 }
@@ -46,6 +48,8 @@ export class OnlineChannel {
   /** Subscriptions this very connection knows of. */
   private readonly announced = new Set<number>();
   private nextId = 1;
+  /** The past cycle that the server shows; null: live values. */
+  private past: number | null = null;
 
   constructor(
     readonly board: ValueBoard,
@@ -63,6 +67,7 @@ export class OnlineChannel {
         message: (data) => this.message(data),
         lost: () => {
           this.announced.clear();
+          this.past = null;
           this.events.lost();
         },
       },
@@ -101,6 +106,11 @@ export class OnlineChannel {
     };
   }
 
+  /** Asks for the values of a past cycle in all groups, or with null for live ones; `looked` tells the outcome. */
+  lookBack(cycle: number | null): void {
+    if (this.socket.state === 'open') this.socket.send({ op: 'look_back', cycle });
+  }
+
   close(): void {
     for (const group of this.groups) group.cancelUpdate?.();
     this.socket.close();
@@ -108,7 +118,10 @@ export class OnlineChannel {
 
   private message(data: unknown): void {
     if (data instanceof ArrayBuffer) {
-      this.board.receive(readFrame(data));
+      const frame = readFrame(data);
+      // What was on its way when the server turned to another cycle must not be shown as of this one.
+      if (this.past === null ? !isPast(frame) : isPast(frame) && Number(frame.cycle) === this.past)
+        this.board.receive(frame);
       return;
     }
     if (typeof data !== 'string') return;
@@ -117,7 +130,10 @@ export class OnlineChannel {
       this.subscribed(message.id as number, message.items as readonly SubscribedItem[]);
       this.paced(message.id as number, message.interval_ms as number);
     } else if (message.op === 'paced') this.paced(message.id as number, message.interval_ms as number);
-    else if (message.op === 'forces')
+    else if (message.op === 'looked_back') {
+      this.past = message.cycle as number | null;
+      this.events.looked(this.past, message.problem as string | null);
+    } else if (message.op === 'forces')
       this.events.forces(message.expressions as readonly string[], message.places as readonly ImagePlace[]);
     else if (message.op === 'state') this.state(message);
   }

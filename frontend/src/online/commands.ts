@@ -2,13 +2,13 @@
 import { Binary, LockKeyhole, LockKeyholeOpen, PencilLine } from 'lucide-react';
 import { NUMBER_FORMATS, setEditorSettings, useEditorSettings, type NumberFormat } from '@/text/settings';
 import { contextChanged, menuGroup, registerCommands, type Command, type Enablement } from '@/workbench/commands';
-import { connected, online, operator, when } from '@/workbench/conditions';
+import { connected, live, online, operator, when } from '@/workbench/conditions';
 import type { CommandContext } from '@/workbench/context';
 import { useOnline } from '@/workbench/onlineSession';
 import { forcePrepared, releaseForces, writePrepared } from './acts';
 import { clearPrepared, hasOpenField, preparedValues, usePrepared } from './prepared';
 
-const mayOperate = when(online, operator, connected);
+const mayOperate = when(online, operator, connected, live);
 
 const hasPrepared = (context: CommandContext): Enablement =>
   context.online !== null && (hasOpenField() || preparedValues(context.online.runtimeId).length > 0)

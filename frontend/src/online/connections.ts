@@ -11,6 +11,13 @@ import {
 import { BROWSER_CLOCK, ValueBoard } from './board';
 import { OnlineChannel } from './channel';
 
+/** Who follows the past cycles that channels show. */
+const listeners = { looked: (_runtimeId: string, _cycle: number | null, _problem: string | null): void => undefined };
+
+export function onLooked(listener: typeof listeners.looked): void {
+  listeners.looked = listener;
+}
+
 const channels = new Map<string, OnlineChannel>();
 
 function openChannel(runtimeId: string): OnlineChannel {
@@ -18,6 +25,7 @@ function openChannel(runtimeId: string): OnlineChannel {
     state: (state) => runtimeStateReceived(runtimeId, state),
     forces: (expressions, places) => forcesReceived(runtimeId, expressions, places),
     lost: () => connectionLost(runtimeId),
+    looked: (cycle, problem) => listeners.looked(runtimeId, cycle, problem),
     paced: (intervalMs) => valuesPaced(runtimeId, intervalMs),
   });
 }

@@ -29,6 +29,11 @@ export function readFrame(data: ArrayBuffer): Frame {
   };
 }
 
+/** Whether the values are those of a past cycle. */
+export function isPast(frame: Frame): boolean {
+  return (frame.flags & 1) !== 0;
+}
+
 const WIDE = new TextDecoder('utf-16le');
 
 /** The value at the item's place, or null when it has none of its own or lies outside of the frame. */

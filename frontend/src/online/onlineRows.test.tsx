@@ -46,6 +46,7 @@ const SESSION: OnlineSession = {
   runtime: null,
   lostSince: null,
   pacedMs: null,
+  past: null,
 };
 let setVisible: (visible: boolean) => void;
 

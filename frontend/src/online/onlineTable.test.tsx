@@ -27,6 +27,7 @@ const session = (more: Partial<OnlineSession> = {}): OnlineSession => ({
   runtime: null,
   lostSince: null,
   pacedMs: null,
+  past: null,
   ...more,
 });
 let update: (change: { roots?: readonly OnlineRoot[]; session?: OnlineSession }) => void;

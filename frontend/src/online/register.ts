@@ -1,10 +1,15 @@
 /** Registers the online room: channels follow the logins, watch lists follow the project; panels and commands. */
 import { Eye, LockKeyhole } from 'lucide-react';
 import { useOnline } from '@/workbench/onlineSession';
+import { registerBar } from '@/workbench/bars';
+import { newExceptions } from '@/workbench/online/exception';
 import { registerPanel } from '@/workbench/panels';
 import { useProject } from '@/project/openProject';
 import { registerValueCommands } from './commands';
 import { followSessions } from './connections';
+import { registerPastCommands } from './past/commands';
+import { followTimeBars, openTimeBar } from './past/store';
+import { TimeBar } from './past/TimeBar';
 import { followProject, WATCH_LISTS } from './watch/lists';
 import { onDemand } from '@/ui/onDemand';
 
@@ -47,7 +52,21 @@ export function registerOnline(): void {
     useBadge: useForceCount,
   });
 
+  registerBar(TimeBar);
+  registerPastCommands();
   registerValueCommands();
   followSessions();
+  followTimeBars();
+  followFaults();
   followProject();
+}
+
+/** An application that stops with an exception: the way that led there lies open. */
+function followFaults(): void {
+  useOnline.subscribe(({ sessions }, before) => {
+    for (const session of newExceptions(sessions, before.sessions)) {
+      // Where nothing is recorded there is nothing to open.
+      openTimeBar(session).catch(() => undefined);
+    }
+  });
 }

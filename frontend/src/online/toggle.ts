@@ -1,5 +1,6 @@
 import { channelOf } from './connections';
 import { valueKind } from './item';
+import { refusePast } from './past/refuse';
 import { prepare, preparedLiteral, toggledLiteral } from './prepared';
 
 /** Whether a variable may be written at all: constants that the compiler replaced may not (DECL-47). */
@@ -11,6 +12,7 @@ export function isWritable(flags: readonly string[] | undefined): boolean {
 export function togglePrepared(runtimeId: string, expression: string): boolean {
   const live = channelOf(runtimeId)?.board.get(expression) ?? null;
   if (live === null || valueKind(live.item) !== 'bool') return false;
+  if (refusePast(runtimeId)) return true;
   if (isWritable(live.item.flags)) {
     prepare(runtimeId, expression, toggledLiteral(live.value, preparedLiteral(runtimeId, expression)));
   }

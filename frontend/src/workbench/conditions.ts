@@ -28,6 +28,9 @@ export const editor: Condition = ({ activeEditor }) => (activeEditor ? true : 'r
 /** No build, login or download is under way. */
 export const idle: Condition = ({ busy }) => (busy ? 'reason.busy' : true);
 
+/** Values are those of now: nothing is written while one looks at others. */
+export const live: Condition = (context) => (context.online?.past != null ? 'reason.past' : true);
+
 export const online: Condition = (context) => (context.online ? true : 'reason.notLoggedIn');
 /** The controller that one is logged in to answers. */
 export const connected: Condition = (context) =>

@@ -7,6 +7,17 @@
 import { create } from 'zustand';
 import type { ImagePlace, LoginRelation, RuntimeState } from '@/api/types';
 
+/** A past cycle whose values are shown in place of the live ones. */
+export interface PastMoment {
+  cycle: number;
+  /** Its end, milliseconds since 1970. */
+  at: number;
+  /** Milliseconds from there to the last cycle that is kept. */
+  before: number;
+  /** Whether that last cycle is the one in which the application failed. */
+  fault: boolean;
+}
+
 export interface OnlineSession {
   applicationId: string;
   runtimeId: string;
@@ -18,6 +29,8 @@ export interface OnlineSession {
   lostSince: number | null;
   /** Milliseconds between values where the server gives them less often than asked for; null where it does not. */
   pacedMs: number | null;
+  /** Null while values are live. */
+  past: PastMoment | null;
 }
 
 interface OnlineState {
@@ -31,7 +44,15 @@ interface OnlineState {
 export const useOnline = create<OnlineState>(() => ({ sessions: {}, forces: {}, forcedPlaces: {} }));
 
 export function loggedIn(applicationId: string, runtimeId: string, relation: LoginRelation): void {
-  const session: OnlineSession = { applicationId, runtimeId, relation, runtime: null, lostSince: null, pacedMs: null };
+  const session: OnlineSession = {
+    applicationId,
+    runtimeId,
+    relation,
+    runtime: null,
+    lostSince: null,
+    pacedMs: null,
+    past: null,
+  };
   useOnline.setState((state) => ({ sessions: { ...state.sessions, [applicationId]: session } }));
 }
 
@@ -72,6 +93,12 @@ export function valuesPaced(runtimeId: string, pacedMs: number | null): void {
   if (Object.values(useOnline.getState().sessions).some(differs)) change(differs, { pacedMs });
 }
 
+/** Views show the values of a past cycle from now on, or live ones with null. */
+export function pastShown(runtimeId: string, past: PastMoment | null): void {
+  const differs = (session: OnlineSession) => session.runtimeId === runtimeId && session.past !== past;
+  if (Object.values(useOnline.getState().sessions).some(differs)) change(differs, { past });
+}
+
 export function forcesReceived(runtimeId: string, paths: readonly string[], places: readonly ImagePlace[]): void {
   useOnline.setState((state) => ({
     forces: { ...state.forces, [runtimeId]: paths },
@@ -88,11 +115,12 @@ function change(where: (session: OnlineSession) => boolean, values: Partial<Onli
 }
 
 /** How a session looks: the colour of editor headers, tree nodes and the status bar. */
-export type OnlineTone = 'running' | 'stopped' | 'exception' | 'simulated' | 'lost' | 'unknown';
+export type OnlineTone = 'running' | 'stopped' | 'exception' | 'simulated' | 'lost' | 'past' | 'unknown';
 
 export function onlineTone(session: OnlineSession | null | undefined, simulated = false): OnlineTone {
   if (!session?.runtime) return session?.lostSince ? 'lost' : 'unknown';
   if (session.lostSince !== null || !session.runtime.connected) return 'lost';
+  if (session.past !== null) return 'past';
   switch (session.runtime.state) {
     case 'run':
       return simulated ? 'simulated' : 'running';

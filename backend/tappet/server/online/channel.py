@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -10,14 +10,17 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from starlette.websockets import WebSocket
 
 from tappet.runtime.recorder import Frame
-from tappet.server.online.layout import HEADER, lay_out
+from tappet.server.online.layout import HEADER, FrameLayout, lay_out
 from tappet.server.online.outbox import Outbox
+from tappet.server.online.past import PAST, read_past
 from tappet.server.online.quota import Share, UserQuota
 from tappet.server.online.sampler import SamplerPool, Sink
 from tappet.server.online.shapes import (
     ClientMessage,
     ForcesChanged,
     ImagePlace,
+    LookBack,
+    LookedBack,
     OnlineError,
     Paced,
     Speak,
@@ -25,6 +28,7 @@ from tappet.server.online.shapes import (
     Subscribe,
     Subscribed,
 )
+from tappet.server.problems import Problem
 from tappet.server.runtimes.links import Change, RuntimeLink
 from tappet.server.sockets import SessionWatch, close_with_session, until_one_ends
 from tappet.server.spoken import in_language
@@ -39,6 +43,7 @@ _MESSAGE: TypeAdapter[ClientMessage] = TypeAdapter(ClientMessage)
 class _Subscription:
     order: Subscribe
     share: Share
+    layout: FrameLayout
     detach: Callable[[], None] = field(default=lambda: None)
 
 
@@ -60,6 +65,8 @@ class OnlineChannel:
         self._quota = quota
         self._subscriptions: dict[int, _Subscription] = {}
         self._language: Language = "en"
+        self._past: int | None = None
+        """The past cycle that all subscriptions show; None: live values."""
         self.outbox = Outbox()
 
     async def run(self) -> None:
@@ -103,6 +110,10 @@ class OnlineChannel:
         if isinstance(order, Subscribe):
             await self._quota.pay(1 + len(order.expressions))
             self._subscribe(order)
+            await self._show_past([order.id])
+        elif isinstance(order, LookBack):
+            await self._quota.pay(1 + sum(len(one.layout.places) for one in self._subscriptions.values()))
+            await self._look_back(order.cycle)
         elif isinstance(order, Speak):
             await self._quota.pay(1 + len(self._subscriptions))
             self._speak(order.language)
@@ -129,19 +140,59 @@ class OnlineChannel:
             return
         items = list(layout.items)
         self._enqueue(Subscribed(id=order.id, items=items, interval_ms=interval_ms, renewed=renewed))
-        subscription = self._subscriptions[order.id] = _Subscription(order, share)
-
-        def attach(interval_ms: int) -> None:
-            if layout.places and self._link.connected:
-                subscription.detach()
-                subscription.detach = self._pool.attach(layout.places, interval_ms, self._sink(order.id))
+        subscription = self._subscriptions[order.id] = _Subscription(order, share, layout)
 
         def paced(interval_ms: int) -> None:
             self._enqueue(Paced(id=order.id, interval_ms=interval_ms))
-            attach(interval_ms)
+            self._attach(subscription, interval_ms)
 
-        attach(interval_ms)
+        self._attach(subscription, interval_ms)
         share.paced = paced
+
+    def _attach(self, subscription: _Subscription, interval_ms: int) -> None:
+        """Live values from now on; none while the channel shows the past."""
+        subscription.detach()
+        subscription.detach = lambda: None
+        places = subscription.layout.places
+        if places and self._link.connected and self._past is None:
+            sink = self._sink(subscription.order.id)
+            subscription.detach = self._pool.attach(places, interval_ms, sink)
+
+    # -- the past ------------------------------------------------------------------------------------
+
+    async def _look_back(self, cycle: int | None) -> None:
+        """All subscriptions show a past cycle; with None live values again. Where the cycle cannot be had
+        everything stays as it is, and the answer says why."""
+        before, self._past = self._past, cycle
+        problem = await self._show_past(list(self._subscriptions)) if cycle is not None else None
+        if problem is not None:
+            self._past = before
+        self._enqueue(LookedBack(cycle=self._past, problem=problem))
+        if (before is None) != (self._past is None):
+            for subscription in self._subscriptions.values():
+                self._attach(subscription, self._quota.interval(subscription.share))
+            self._enqueue(self._forces())
+
+    async def _show_past(self, ids: Sequence[int]) -> str | None:
+        """Sends a frame of the past cycle to these subscriptions; returns why not."""
+        cycle = self._past
+        if cycle is None:
+            return None
+        wanted = {id: self._subscriptions[id].layout.places for id in ids if id in self._subscriptions}
+        try:
+            frames = await read_past(self._link, cycle, wanted)
+        except Problem as problem:
+            return problem.detail
+        for id, data in frames.items():
+            self.outbox.put_frame(id, HEADER.pack(id, PAST, cycle, 0) + data)
+        return None
+
+    def _leave_past(self) -> None:
+        """The cycle shown belongs to what is no longer loaded."""
+        if self._past is not None:
+            self._past = None
+            self._enqueue(LookedBack(cycle=None, problem=None))
+            self._enqueue(self._forces())
 
     def _sink(self, subscription: int) -> Sink:
         def sink(frame: Frame) -> None:
@@ -160,6 +211,9 @@ class OnlineChannel:
     # -- out -----------------------------------------------------------------------------------------
 
     def _forces(self) -> ForcesChanged:
+        """The present forces; of a past cycle it is not kept what was forced."""
+        if self._past is not None:
+            return ForcesChanged(expressions=[], places=[])
         sizes = sorted(self._link.forced_sizes.items(), key=lambda entry: (entry[0][0], entry[0][1] or 0))
         places = [ImagePlace(offset=offset, size=size, bit=bit) for (offset, bit), size in sizes]
         return ForcesChanged(expressions=sorted(self._link.forced.values()), places=places)
@@ -170,6 +224,7 @@ class OnlineChannel:
         elif change is Change.FORCES:
             self._enqueue(self._forces())
         elif change is Change.APPLICATION:
+            self._leave_past()
             for subscription in list(self._subscriptions.values()):
                 self._subscribe(subscription.order, renewed=True)
 

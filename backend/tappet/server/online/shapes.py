@@ -1,7 +1,7 @@
 """Messages of the WebSocket `/api/v1/online`.
 
-Samples are binary frames, little endian: u32 subscription, u32 flags (0), u64 cycle, i64 nanoseconds since
-1970, then the values as raw bytes; the offsets of the `subscribed` message count from the end of this header.
+Samples are binary frames, little endian: u32 subscription, u32 flags (1: of a past cycle), u64 cycle, i64
+nanoseconds since 1970 (0 in frames of the past: the list of past cycles has the times), then the values as raw bytes; the offsets of the `subscribed` message count from the end of this header.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from tappet.server.flight.shapes import Cycle
 from tappet.server.runtimes.shapes import RuntimeState
 from tappet.server.shapes import Reply, Request
 from tappet.server.values.shapes import MAX_EXPRESSIONS, Expression
@@ -41,7 +42,15 @@ class Speak(Request):
     language: Language
 
 
-ClientMessage = Annotated[Subscribe | Unsubscribe | Speak, Field(discriminator="op")]
+class LookBack(Request):
+    """Show the end of a past cycle that the flight recorder keeps in all subscriptions, later ones as well;
+    null: live values again."""
+
+    op: Literal["look_back"]
+    cycle: Cycle | None
+
+
+ClientMessage = Annotated[Subscribe | Unsubscribe | Speak | LookBack, Field(discriminator="op")]
 
 
 class ImagePlace(Reply):
@@ -108,6 +117,16 @@ class ForcesChanged(Reply):
     places: list[ImagePlace]
 
 
+class LookedBack(Reply):
+    """What the subscriptions show from now on."""
+
+    SENTENCES: ClassVar = ("problem",)
+
+    op: Literal["looked_back"] = "looked_back"
+    cycle: int | None = Field(description="The past cycle; null: live values.")
+    problem: str | None = Field(default=None, description="Why the cycle asked for cannot be shown.")
+
+
 class OnlineError(Reply):
     """A message that could not be served; the connection stays open."""
 
@@ -119,5 +138,5 @@ class OnlineError(Reply):
 
 
 ServerMessage = Annotated[
-    Subscribed | Paced | StateChanged | ForcesChanged | OnlineError, Field(discriminator="op")
+    Subscribed | Paced | StateChanged | ForcesChanged | LookedBack | OnlineError, Field(discriminator="op")
 ]

@@ -8,6 +8,7 @@ import { channelOf } from '@/online/connections';
 import { formatLiteral } from '@/online/format';
 import type { SubscribedItem } from '@/online/item';
 import { checkLiteral } from '@/online/literal';
+import { refusePast } from '@/online/past/refuse';
 import { prepare, preparedLiteral } from '@/online/prepared';
 import { useOpenField } from '@/online/useOpenField';
 import { isWritable, togglePrepared } from '@/online/toggle';
@@ -40,7 +41,7 @@ export function prepareValue(
   position: { lineNumber: number; column: number },
 ): void {
   const live = channelOf(runtimeId)?.board.get(expression);
-  if (live == null) return;
+  if (live == null || refusePast(runtimeId)) return;
   if (!isWritable(live.item.flags)) {
     notify({ tone: 'info', title: t('online.constantFixed') });
     return;

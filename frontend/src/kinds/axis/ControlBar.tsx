@@ -28,9 +28,11 @@ export function useControlReasons(session: OnlineSession, name: string, control:
     ? t('axis.needsOperator')
     : session.lostSince !== null
       ? t('axis.noConnection')
-      : session.runtime?.state !== 'run'
-        ? t('axis.notRunning')
-        : null;
+      : session.past !== null
+        ? t('reason.past')
+        : session.runtime?.state !== 'run'
+          ? t('axis.notRunning')
+          : null;
   const others = state !== null && state !== 'Free' && !control.mine ? t('axis.othersControl') : null;
   const inControl = blocked ?? (control.mine && state === 'Control' ? null : t('axis.needsControl'));
   return { blocked, others, inControl };

@@ -9,6 +9,7 @@ const session = (runtimeId: string): OnlineSession => ({
   runtime: null,
   lostSince: null,
   pacedMs: null,
+  past: null,
 });
 
 describe('runtime of a scene', () => {

@@ -5,6 +5,7 @@ import { timeText } from '../clock';
 import { useOnline } from '../onlineSession';
 import { toneOfApplication } from '../tones';
 import { applicationOf, objectPath } from '@/project/tree';
+import { pastText } from '../online/pastText';
 import { ToneDot } from '../online/ToneDot';
 import styles from './Panel.module.css';
 
@@ -21,7 +22,7 @@ export function OnlineStripe({ object, objects, instance }: OnlineStripeProps) {
   const application = applicationOf(objects, object.id);
   const tone = application && toneOfApplication(application.id, sessions);
   if (!application || !tone) return null;
-  const since = sessions[application.id]?.lostSince;
+  const { lostSince: since, past } = sessions[application.id]!;
   const path = instance ?? withoutPrefix(objectPath(objects, object.id), objectPath(objects, application.id));
   const isType = !instance && valuesOf(object) === 'instance';
   return (
@@ -30,7 +31,11 @@ export function OnlineStripe({ object, objects, instance }: OnlineStripeProps) {
       <span className={styles.path}>{path}</span>
       {isType && <span>{t('online.implementation')}</span>}
       <span className={styles.state}>
-        {tone === 'lost' && since ? t('online.lostSince', { time: timeText(since) }) : t(`online.tone.${tone}`)}
+        {tone === 'lost' && since
+          ? t('online.lostSince', { time: timeText(since) })
+          : tone === 'past' && past
+            ? pastText(past, t)
+            : t(`online.tone.${tone}`)}
       </span>
     </div>
   );

@@ -10,6 +10,7 @@ import { useText } from '@/i18n';
 import { warnBeforeLeaving } from '../docking/close';
 import { DockArea } from '../docking/DockArea';
 import { restoreLayout } from '../docking/layout';
+import { allBars } from '../bars';
 import { openEvents, type ProjectEvents } from '../events';
 import { forgetBuild } from '../messages/store';
 import { forgetRelations } from '../online/knownRelation';
@@ -129,6 +130,9 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
     <div className={styles.frame}>
       <MenuBar />
       <Toolbar />
+      {allBars().map((Bar, at) => (
+        <Bar key={at} />
+      ))}
       <main ref={area} className={styles.dock}>
         {layout && <DockArea projectId={projectId} layout={layout.dock} />}
       </main>

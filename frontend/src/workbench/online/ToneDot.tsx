@@ -6,6 +6,7 @@ const TONE_COLORS: Record<OnlineTone, string> = {
   exception: 'var(--error)',
   simulated: 'var(--warn)',
   lost: 'var(--warn)',
+  past: 'var(--past)',
   unknown: 'var(--fg-muted)',
 };
 

@@ -27,6 +27,7 @@ const session = (applicationId: string, raised: RuntimeException | null): Online
   runtime: { exception: raised } as RuntimeState,
   lostSince: null,
   pacedMs: null,
+  past: null,
 });
 
 describe('exceptions', () => {

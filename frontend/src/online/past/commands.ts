@@ -1,0 +1,125 @@
+/** Commands of the time bar: they open it where it is not there yet. */
+import {
+  ChevronFirst,
+  ChevronLast,
+  History,
+  OctagonAlert,
+  Play,
+  RadioTower,
+  StepBack,
+  StepForward,
+} from 'lucide-react';
+import { contextChanged, menuGroup, registerCommands, type Enablement } from '@/workbench/commands';
+import { connected, online, when, type Condition } from '@/workbench/conditions';
+import type { CommandContext } from '@/workbench/context';
+import { jumpToFrame } from '@/workbench/online/exception';
+import { atLeast } from '@/workbench/rights';
+import { closeTimeBar, lookAt, openTimeBar, step, timeBar, togglePlay, useTimeBars } from './store';
+
+/** To look back into a running application its recording has to stop, which is not for everybody. */
+const mayOpen: Condition = (context): Enablement => {
+  if (timeBar(context.online?.runtimeId) !== null || context.online?.runtime?.state !== 'run') return true;
+  return atLeast(context.role, 'operator') ? true : 'reason.operator';
+};
+const reachable = when(online, connected, mayOpen);
+const open: Condition = (context) => (timeBar(context.online?.runtimeId) !== null ? true : 'past.notOpen');
+
+/** Opens the bar where it is closed; answers whether it was open. */
+async function opened(context: CommandContext): Promise<boolean> {
+  const session = context.online!;
+  if (timeBar(session.runtimeId) !== null) return true;
+  await openTimeBar(session);
+  return false;
+}
+
+/** Steps; a running application, when the bar opens, shows its last cycle first. */
+async function stepBy(context: CommandContext, delta: number): Promise<void> {
+  const running = context.online!.runtime?.state === 'run';
+  if ((await opened(context)) || !running) step(context.online!.runtimeId, delta);
+}
+
+const onBar = (act: (runtimeId: string) => void | Promise<void>) => (context: CommandContext) =>
+  act(context.online!.runtimeId);
+
+export function showFault(context: CommandContext): void {
+  const { runtimeId, runtime } = context.online!;
+  lookAt(runtimeId, timeBar(runtimeId)!.moments.length - 1);
+  if (runtime?.exception) jumpToFrame(runtime.exception);
+}
+
+const commands = menuGroup(
+  'debug',
+  '5_past',
+  {
+    id: 'past.bar',
+    title: 'past.bar',
+    icon: History,
+    keys: ['Ctrl+Alt+H'],
+    checked: (context) => timeBar(context.online?.runtimeId) !== null,
+    enabled: reachable,
+    run: async (context) => {
+      if (await opened(context)) await closeTimeBar(context.online!.runtimeId);
+    },
+  },
+  {
+    id: 'past.stepBack',
+    title: 'past.stepBack',
+    icon: StepBack,
+    keys: ['Ctrl+Alt+ArrowLeft'],
+    toolbar: { group: '3_run', order: 8 },
+    enabled: reachable,
+    run: (context) => stepBy(context, -1),
+  },
+  {
+    id: 'past.stepForward',
+    title: 'past.stepForward',
+    icon: StepForward,
+    keys: ['Ctrl+Alt+ArrowRight'],
+    enabled: when(reachable, open),
+    run: (context) => stepBy(context, 1),
+  },
+  {
+    id: 'past.first',
+    title: 'past.first',
+    icon: ChevronFirst,
+    keys: ['Ctrl+Alt+Home'],
+    enabled: when(reachable, open),
+    run: onBar((runtimeId) => lookAt(runtimeId, 0)),
+  },
+  {
+    id: 'past.last',
+    title: 'past.last',
+    icon: ChevronLast,
+    keys: ['Ctrl+Alt+End'],
+    enabled: when(reachable, open),
+    run: onBar((runtimeId) => lookAt(runtimeId, timeBar(runtimeId)!.moments.length - 1)),
+  },
+  {
+    id: 'past.fault',
+    title: 'past.fault',
+    icon: OctagonAlert,
+    enabled: when(reachable, open, (context) => (context.online?.runtime?.exception ? true : 'past.noFault')),
+    run: showFault,
+  },
+  {
+    id: 'past.play',
+    title: 'past.play',
+    icon: Play,
+    keys: ['Ctrl+Alt+Space'],
+    checked: (context) => timeBar(context.online?.runtimeId)?.playing != null,
+    enabled: when(reachable, open),
+    run: onBar((runtimeId) => togglePlay(runtimeId)),
+  },
+  {
+    id: 'past.live',
+    title: 'past.live',
+    icon: RadioTower,
+    enabled: when(online, open),
+    run: onBar(closeTimeBar),
+  },
+);
+
+export function registerPastCommands(): void {
+  registerCommands(commands);
+  useTimeBars.subscribe(contextChanged);
+}

@@ -1,0 +1,143 @@
+"""Looking back: the time bar leads through past cycles, and every view shows the values of that cycle."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from .conftest import Server, new_profile, start_page
+from .workbench import (
+    add_line,
+    choose_menu,
+    log_in,
+    open_object,
+    open_project,
+    plc_prg,
+    prepare,
+    status_bar,
+    watch,
+)
+
+pytestmark = pytest.mark.e2e
+CAPS = "GVL_IO.diCaps"
+
+
+def _bar(page: Page) -> Locator:
+    return page.get_by_role("region", name="Past Cycles")
+
+
+def _cycle(page: Page) -> int:
+    """The cycle that the bar names."""
+    text = _bar(page).get_by_role("status").inner_text()
+    found = re.search(r"cycle (\d+)", text)
+    assert found is not None, text
+    return int(found[1])
+
+
+def _value(row: Locator) -> Locator:
+    return row.get_by_role("gridcell").nth(2)
+
+
+def _number(row: Locator) -> int:
+    """The value as it stands in the row."""
+    return int((_value(row).text_content() or "").strip())
+
+
+def test_a_running_machine_is_looked_back_at_and_runs_on(page: Page) -> None:
+    open_project(page)
+    open_object(page, "PLC_PRG")
+    log_in(page)
+    row = watch(page, "PersistentVars.udiOperatingTime")
+    expect(_value(row)).not_to_have_text("")
+    page.keyboard.press("Control+Alt+H")
+    bar = _bar(page)
+    expect(bar.get_by_role("status")).to_contain_text("the last one")
+    last = _cycle(page)
+    stripe = page.locator("[data-tone=past]").filter(has_text="PLC_PRG").first
+    expect(stripe).to_contain_text(f"cycle {last}")
+
+    page.keyboard.press("Control+Alt+ArrowLeft")
+    expect(bar.get_by_role("status")).to_contain_text(f"cycle {last - 1}")
+    expect(bar.get_by_role("status")).to_contain_text("before the last one")
+    expect(stripe).to_contain_text(f"cycle {last - 1}")
+    bar.get_by_role("slider").press("Home")
+    expect(bar.get_by_role("button", name="First Kept Cycle")).to_be_visible()
+    expect(stripe).not_to_contain_text(f"cycle {last - 1}")
+    first = _cycle(page)
+    assert first < last - 1
+    earlier = _number(row)
+    bar.get_by_role("button", name="Last Kept Cycle").click()
+    expect(stripe).to_contain_text(f"cycle {last}")
+    assert _number(row) >= earlier
+
+    row.get_by_role("gridcell").nth(3).dblclick()
+    expect(page.get_by_text("go back to live values first").first).to_be_visible()
+    bar.get_by_role("button", name="Back to Live Values").click()
+    expect(bar).to_have_count(0)
+    expect(page.locator("[data-tone=past]")).to_have_count(0)
+    expect(status_bar(page).get_by_text("running")).to_be_visible()
+    seen = _number(row)
+    expect(_value(row)).not_to_have_text(str(seen))
+
+
+def _to_the_fault(page: Page) -> tuple[Locator, Locator]:
+    """A machine that fails in the cycle in which 1234 is written; the row of that variable and the bar."""
+    editor = plc_prg(page)
+    add_line(page, editor, f"iLoaded := DINT_TO_INT(7 / ({CAPS} - 1234));")
+    log_in(page)
+    row = watch(page, CAPS)
+    expect(_value(row)).not_to_have_text("1234")
+    prepare(row, "1234")
+    page.keyboard.press("Control+F7")
+    expect(status_bar(page).get_by_role("button", name=re.compile("Division by zero"))).to_be_visible()
+    bar = _bar(page)
+    expect(bar).to_be_visible()
+    return watch(page, CAPS), bar
+
+
+def test_an_exception_opens_the_bar_and_the_cycle_before_is_a_step_away(page: Page) -> None:
+    row, bar = _to_the_fault(page)
+    expect(_value(row)).to_have_text("1234")
+    page.get_by_role("toolbar").get_by_role("button", name="Step Back One Cycle").click()
+    expect(bar.get_by_role("status")).to_contain_text("before the fault")
+    expect(_value(row)).not_to_have_text("1234")
+    before = _cycle(page)
+    page.keyboard.press("Control+Alt+ArrowRight")
+    expect(bar.get_by_role("status")).to_contain_text("the one of the fault")
+    expect(_value(row)).to_have_text("1234")
+    assert _cycle(page) == before + 1
+
+    bar.get_by_role("slider").press("Home")
+    expect(bar.get_by_role("status")).not_to_contain_text("the one of the fault")
+    bar.get_by_role("button", name="To the Fault").click()
+    expect(page.get_by_text("Ln 2, Col")).to_be_visible()
+    expect(_value(row)).to_have_text("1234")
+
+    bar.get_by_role("slider").press("Home")
+    choose_menu(page, "Debug", "Play Past Cycles")
+    expect(bar.get_by_role("button", name="Pause")).to_be_visible()
+    expect(bar.get_by_role("status")).to_contain_text("the one of the fault")
+    bar.get_by_role("button", name="Back to Live Values").click()
+    expect(bar).to_have_count(0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("theme", "language"), [("dark", "en"), ("light", "zh")])
+def test_pictures_of_the_bar(browser: Browser, server: Server, theme: str, language: str) -> None:
+    folder = Path(os.environ.get("TAPPET_PICTURES", server.data))
+    with new_profile(browser, "en", theme) as profile, start_page(profile, server) as page:
+        _, bar = _to_the_fault(page)
+        page.screenshot(path=folder / f"past-fault-{theme}-{language}.png")
+        for _ in range(40):
+            page.keyboard.press("Control+Alt+ArrowLeft")
+        expect(bar.get_by_role("status")).to_contain_text("before the fault")
+        if language == "zh":
+            page.keyboard.press("Control+Shift+P")
+            page.keyboard.type("中文")
+            page.keyboard.press("Enter")
+            page.wait_for_timeout(1000)
+        page.screenshot(path=folder / f"past-{theme}-{language}.png")
