@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -67,6 +68,9 @@ def test_every_subscription_shows_the_cycle(admin: TestClient, runtime_id: str, 
             assert frames == {(1, cycle, 100 + cycle), (2, cycle, 100 + cycle)}
         _subscribe(socket, 3, "PLC_PRG.nCount")
         assert _past_frame(socket) == (3, 5, 105)
+        deadline = time.monotonic() + 10  # recorders are closed in the background
+        while plc.recorders and time.monotonic() < deadline:
+            time.sleep(0.01)
         assert not plc.recorders, "nothing is sampled for a channel that looks back"
         assert _look(socket, None)["cycle"] is None
         plc.set("PLC_PRG.nCount", 7)

@@ -10,7 +10,10 @@ from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime import monitoring
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.errors import NoApplicationError, NoTraceError, PlcError
+from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.flight import FlightRecorder, FlightStatus
+from tappet.runtime.flight_recording import FlightRecording
+from tappet.runtime.flight_save import take_recording
 from tappet.runtime.forces import Force, PlacedValue
 from tappet.runtime.places import path_at
 from tappet.runtime.recorder import Recorder, RecorderSpec
@@ -222,6 +225,15 @@ class ApplicationAccess:
             capture = recorder.capture(cycle)
         image = recorder.rebuild(capture)  # takes its time: nobody waits for it
         return [image[offset : offset + size] for offset, size in places]
+
+    def flight_recording(self) -> FlightRecording:
+        """What is kept, with all it takes to show and replay it elsewhere."""
+        with self._lock:
+            return take_recording(self._need(), self.exception())
+
+    def exception(self) -> ExceptionReport | None:
+        """Why the application is in the state exception; the life cycle knows it."""
+        return None
 
     def flight_freeze(self, on: bool) -> FlightStatus:
         """Keep what is recorded, or record again; an exception freezes until the next start after a reset."""

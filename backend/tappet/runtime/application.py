@@ -20,6 +20,7 @@ from tappet.runtime.forces import Force, ForceTable, PlacedValue, ValueList
 from tappet.runtime.heap import ApplicationHeap
 from tappet.runtime.image import Image
 from tappet.runtime.logbook import Logbook
+from tappet.runtime.outside_values import OutsideValues
 from tappet.runtime.places import Place, path_at
 from tappet.runtime.program_log import ProgramLog
 from tappet.runtime.retain import (
@@ -54,13 +55,15 @@ class LoadedApplication(ApplicationCode):
         stuck_limit_s: float = STUCK_LIMIT_S,
         flight: FlightSettings | None = None,
         folder: Path | None = None,
+        image_address: int = 0,
     ) -> None:
-        """`folder` holds the data of the runtime, its files among them."""
+        """`folder` holds the data of the runtime, its files among them; at `image_address` the image is put
+        where that is free."""
         self.executive = executive
         self.package = package
         self.virtual = virtual
         self.stuck_limit_s = stuck_limit_s
-        self.image = Image(package.image_size, ChangeReserve(*package.facts.reserve))
+        self.image = Image(package.image_size, ChangeReserve(*package.facts.reserve), image_address)
         self.heap = ApplicationHeap(executive, package.facts.heap_limit, poison=package.facts.heap_poison)
         try:
             self.code = self.link(package)
@@ -88,6 +91,7 @@ class LoadedApplication(ApplicationCode):
         """Remanent bytes of tasks that may not run for long, from and to."""
         self.variant = None
         self.buffers = IoBuffers(Block(self.area("I")[1]), Block(self.area("Q")[1]), Block(8))
+        self.outside = OutsideValues()
         self._batches: list[list[tuple[int, ValueList]]] = [[] for _ in package.tasks]
         self.connect_code(self.code)
         self.connect_io()
@@ -311,8 +315,11 @@ class LoadedApplication(ApplicationCode):
                 with self.tasks.standing():
                     self.executive.apply_values(values_list.address)
                     self._keep()
+                    values_list.cycle = self._next_cycle()
+                self.outside.wrote(None, values_list, batch)
             else:
                 tickets.append((task, self._queue(task, values_list)))
+                self.outside.wrote(task, values_list, batch)
         return tickets
 
     def _writer(self, offset: int) -> int | None:
@@ -323,6 +330,11 @@ class LoadedApplication(ApplicationCode):
         if any(start <= offset < end for start, end in self._rarely_kept):
             return None
         return self.ownership.regular(offset)
+
+    def _next_cycle(self) -> int:
+        """Number of the next cycle of the bus cycle task."""
+        bus = self.ownership.bus
+        return 0 if bus is None else self.contexts.tasks[bus]["cycle"] + 1
 
     def _queue(self, task: int, batch: ValueList) -> int:
         queue = self.contexts.queues[task]
@@ -403,6 +415,7 @@ class LoadedApplication(ApplicationCode):
     def publish_forces(self) -> None:
         """Hand the table to the tasks; without tasks the values are stored once."""
         cell = self.contexts.application.place("pForces")
+        self.outside.forced(self._next_cycle(), self.forces.values)
         if not len(self.forces):
             self.tasks.publish(cell, 0, None)
             return

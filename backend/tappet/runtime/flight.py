@@ -224,6 +224,18 @@ class FlightRecorder:
             raise FlightError(f"cycle {cycle} was dropped while it was being read; freeze the recorder first")
         return Capture(wanted, base, deltas, self._image.size)
 
+    def newest(self) -> bytes:
+        """The image at the newest entry; only while no task runs."""
+        return read_memory(self._shadow.address, self._image.size)
+
+    def export(self) -> tuple[bytes, list[tuple[Entry, bytes]]]:
+        """The image at the newest entry, and all entries with their bytes, oldest first. An entry that was
+        dropped meanwhile is missing, as are those before it."""
+        entries, base = self._steady(lambda: (self._entries(), read_memory(self._shadow.address, self._size)))
+        found = [(entry, self._bytes(entry)) for entry in entries]
+        first = self._executive.load(self.record.place("first"))
+        return base, [(entry, data) for entry, data in found if entry.number >= first]
+
     def rebuild(self, capture: Capture) -> bytes:
         """The image out of a capture; may run beside all other calls."""
         image = rebuild(capture.base, capture.deltas)

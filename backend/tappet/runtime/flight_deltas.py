@@ -33,6 +33,8 @@ class Entry:
     cycle: int
     timestamp_ns: int
     checksum: int
+    due_ns: int = 0
+    """When the cycle was to begin, by the clock of the application."""
 
 
 def unpack_entries(first: int, data: bytes) -> list[Entry]:
@@ -41,7 +43,8 @@ def unpack_entries(first: int, data: bytes) -> list[Entry]:
         raise FlightError(f"{len(data)} bytes are no entries of {ENTRY_SIZE} bytes each")
     rows = enumerate(_ENTRY.iter_unpack(data), first)
     return [
-        Entry(n, position, size, cycle, stamp, check) for n, (position, size, cycle, stamp, _, check) in rows
+        Entry(n, position, size, cycle, stamp, check, due)
+        for n, (position, size, cycle, stamp, due, check) in rows
     ]
 
 
@@ -72,15 +75,25 @@ def runs(entry: Entry, data: bytes, image_size: int) -> list[tuple[int, int, int
         raise _damaged(entry, f"{len(data)} bytes instead of {entry.size}")
     if checksum(entry.position, entry.cycle, entry.timestamp_ns, data) != entry.checksum:
         raise _damaged(entry, "its checksum does not fit")
+    try:
+        return delta_runs(data, image_size)
+    except FlightError as error:
+        raise _damaged(entry, str(error)) from error
+
+
+def delta_runs(data: bytes, image_size: int) -> list[tuple[int, int, int]]:
+    """(offset in the image, place in `data`, size) of all runs of an entry's bytes."""
     found = []
     at = behind = 0
     while at < len(data):
+        if at + _RUN.size > len(data):
+            raise FlightError(f"{len(data) - at} bytes behind the last run")
         offset, size = _RUN.unpack_from(data, at)
         at += _RUN.size
         if size == 0 or size % BLOCK or offset % BLOCK or at + size > len(data):
-            raise _damaged(entry, f"a run of {size} bytes for offset {offset} in {len(data)} bytes")
+            raise FlightError(f"a run of {size} bytes for offset {offset} in {len(data)} bytes")
         if offset < behind or offset + size > image_size:
-            raise _damaged(entry, f"a run of {size} bytes for offset {offset}, image of {image_size} bytes")
+            raise FlightError(f"a run of {size} bytes for offset {offset}, image of {image_size} bytes")
         found.append((offset, at, size))
         at += size
         behind = offset + size

@@ -34,7 +34,7 @@ class ValueList:
         head, item = layouts["VALUE_LIST"], layouts["VALUE_ITEM"]
         data = [_native(v) for v in values]
         self._block = Block(head.size + item.size * len(values) + sum(len(d) for d in data))
-        record = self._block.array(head, 1)[0]
+        record = self._record = self._block.array(head, 1)[0]
         self.address = record.address
         items = self.address + head.size
         bytes_at = items + item.size * len(values)
@@ -48,6 +48,15 @@ class ValueList:
             entry["mask"] = 0 if value.place.bit is None else 1 << value.place.bit
             write_memory(bytes_at, raw)
             bytes_at += len(raw)
+
+    @property
+    def cycle(self) -> int:
+        """The cycle of the task in which a queued batch was stored; 0 before."""
+        return self._record["cycle"]
+
+    @cycle.setter
+    def cycle(self, number: int) -> None:
+        self._record["cycle"] = number
 
 
 def _native(value: PlacedValue) -> bytes:

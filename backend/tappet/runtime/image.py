@@ -28,14 +28,17 @@ class ImageMemory:
 class Image:
     """A memory file, mapped shared. Its address stays the same until it is closed."""
 
-    def __init__(self, size: int, reserve: ChangeReserve = DEFAULT_RESERVE) -> None:
+    def __init__(
+        self, size: int, reserve: ChangeReserve = DEFAULT_RESERVE, wanted_address: int = 0
+    ) -> None:
+        """At `wanted_address` where that is free: a recording is replayed where it was made."""
         if size > MAX_IMAGE:
             raise ImageError(f"image of {size} bytes; at most {MAX_IMAGE} are possible")
         reserved = pages(size + reserve.room(size))
         self._fd = os.memfd_create("tappet-image", os.MFD_CLOEXEC)
         try:
             os.ftruncate(self._fd, reserved)
-            self._mapping: Mapping = map_memory(reserved, self._fd, low=True)
+            self._mapping: Mapping = map_memory(reserved, self._fd, low=True, at=wanted_address)
         except OSError as error:
             os.close(self._fd)
             raise ImageError(f"no memory for an image of {size} bytes: {error}") from error

@@ -103,12 +103,18 @@ class LocalRuntime:
         cycle_limit_s: float = STUCK_LIMIT_S,
         start: bool = True,
         flight: FlightSettings | None = None,
+        image_address: int = 0,
     ) -> None:
         """Load and, with `start`, run. `cycle_limit_s` of wall time ends a cycle that never comes to its
         end.
         """
         self.plc = SoftPlc(
-            folder, virtual=virtual, scheduling=scheduling, stuck_limit_s=cycle_limit_s, flight=flight
+            folder,
+            virtual=virtual,
+            scheduling=scheduling,
+            stuck_limit_s=cycle_limit_s,
+            flight=flight,
+            image_address=image_address,
         )
         self.virtual = virtual
         self.traces: list[Trace] = []

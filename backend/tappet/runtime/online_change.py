@@ -102,6 +102,7 @@ def apply_change(
                 report = build_report(application, log, DURING)
         _end_traces(application, log)
         _rearrange(application, package)
+        application.outside.clear()
         application.package = package
         application.count_change()
         application.connect_code(code)

@@ -33,6 +33,12 @@ def path_at(symbols: SymbolMap, place: Place) -> str | None:
     return found[0] if found is not None and found[1] == 0 else None
 
 
+def name_at(symbols: SymbolMap, offset: int) -> str:
+    """The variable that holds the byte at `offset`, for people; the offset itself where none does."""
+    found = _locate(symbols, Place(offset, 1))
+    return found[0] if found is not None else f"image offset {offset}"
+
+
 def find_again(old: SymbolMap, new: SymbolMap, place: Place) -> Place | None:
     """Where the variable at `place`, or a part of a simple variable, lies in the new application.
 

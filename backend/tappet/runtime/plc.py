@@ -62,7 +62,9 @@ class SoftPlc(ApplicationAccess):
         stuck_limit_s: float = STUCK_LIMIT_S,
         logbook: Logbook | None = None,
         flight: FlightSettings | None = None,
+        image_address: int = 0,
     ) -> None:
+        """`image_address`: where the image of an application is put if that is free."""
         super().__init__()
         self.executive = Executive.shared()
         self.folder = folder
@@ -70,6 +72,7 @@ class SoftPlc(ApplicationAccess):
         self.scheduling = scheduling
         self.stuck_limit_s = stuck_limit_s
         self.flight = flight or FlightSettings()
+        self.image_address = image_address
         self.log = logbook or Logbook()
         self.instance_id = uuid.uuid4().hex
         self.on_event: Callable[[Event], None] | None = None
@@ -314,6 +317,12 @@ class SoftPlc(ApplicationAccess):
             self._load(package, None)
             self._notify("application")
 
+    def change(self, package: CodePackage) -> None:
+        """Online change to a package that is at hand as an object, without storing it as boot application."""
+        with self._lock:
+            self._change(package)
+            self._notify("application")
+
     def _begin(self, application: LoadedApplication, starts: int = 0) -> None:
         """From now on the next process hears of it when this one is ended."""
         self._crash = None
@@ -339,6 +348,7 @@ class SoftPlc(ApplicationAccess):
                 stuck_limit_s=self.stuck_limit_s,
                 flight=self.flight,
                 folder=self.folder,
+                image_address=self.image_address,
             )
         except (LinkError, ImageError, OSError) as error:
             if is_disk_full(error):

@@ -150,15 +150,22 @@ def pages(size: int) -> int:
     return max(1, -(-size // PAGE)) * PAGE
 
 
-def map_memory(size: int, fd: int = -1, *, low: bool = False) -> Mapping:
+def map_memory(size: int, fd: int = -1, *, low: bool = False, at: int = 0) -> Mapping:
     """Map `size` bytes, of the file `fd` (shared) or anonymous (private).
 
     `low` asks for addresses below 4 GiB: first by MAP_32BIT (x86-64), then by trying free places. Where the
-    host has none the mapping lies anywhere; the caller looks at `Mapping.low` and says so.
+    host has none the mapping lies anywhere; the caller looks at `Mapping.low` and says so. `at` is tried
+    before all others.
     """
     size = pages(size)
     protection = mmap.PROT_READ | mmap.PROT_WRITE
     flags = mmap.MAP_SHARED if fd >= 0 else mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS
+    if at:
+        address = libc.mmap(at, size, protection, flags | _MAP_FIXED_NOREPLACE, fd, 0)
+        if address == at:
+            return Mapping(address, size)
+        if address != _MAP_FAILED:
+            libc.munmap(address, size)
     if low and platform.machine() == "x86_64":
         address = libc.mmap(0, size, protection, flags | _MAP_32BIT, fd, 0)
         if address != _MAP_FAILED:

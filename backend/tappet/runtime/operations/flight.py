@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 from msgspec import Meta, Struct
 
 from tappet.runtime.flight import FlightStatus
+from tappet.runtime.flight_recording import write_recording
 from tappet.runtime.operations.declaration import Count, Fact, Operation, Places, Rest
 from tappet.runtime.operations.instants import Instant, instant_of
 
@@ -112,6 +113,16 @@ class ReadFlight(Operation[list[bytes]], frozen=True):
     def run(self, plc: SoftPlc) -> list[bytes]:
         """The image is rebuilt from what is kept."""
         return plc.flight_read(self.cycle, self.places)
+
+
+class SaveFlight(Operation[str], frozen=True):
+    """The kept cycles as the text of a recording (`flight_recording`)."""
+
+    op: ClassVar[str] = "flight_save"
+
+    def run(self, plc: SoftPlc) -> str:
+        """Of this moment; packing it stops no task."""
+        return write_recording(plc.flight_recording())
 
 
 class FreezeFlight(Operation[FlightStatus], frozen=True):

@@ -1,7 +1,8 @@
 """Messages of the WebSocket `/api/v1/online`.
 
 Samples are binary frames, little endian: u32 subscription, u32 flags (1: of a past cycle), u64 cycle, i64
-nanoseconds since 1970 (0 in frames of the past: the list of past cycles has the times), then the values as raw bytes; the offsets of the `subscribed` message count from the end of this header.
+nanoseconds since 1970 (0 in frames of the past: the list of past cycles has the times), then the values as
+raw bytes; the offsets of the `subscribed` message count from the end of this header.
 """
 
 from __future__ import annotations

@@ -1,0 +1,232 @@
+"""Replays: equal to the recording bit by bit; the same fault at the same line; today's code on old inputs."""
+
+from __future__ import annotations
+
+import struct
+import time
+
+import msgspec
+import pytest
+from plc_programs import MS, build
+
+from tappet.codegen.build import BuildOptions, build_application
+from tappet.codegen.package import CodePackage
+from tappet.iec.task import Task
+from tappet.lang.source import Source
+from tappet.runtime.flight import FlightSettings
+from tappet.runtime.flight_recording import FlightRecording, read_recording, write_recording
+from tappet.runtime.local import ApplicationException, LocalRuntime
+from tappet.runtime.replay import ReplayError, replay
+
+BOTTLE = """
+TYPE E_State : (Idle, Filling, Done); END_TYPE
+FUNCTION_BLOCK FB_Filler
+VAR_INPUT run : BOOL; speed : REAL; END_VAR
+VAR_OUTPUT level : REAL; END_VAR
+VAR state : E_State; timer : TON; pLevel : POINTER TO REAL; END_VAR
+pLevel := ADR(level);
+timer(IN := run, PT := T#50ms);
+CASE state OF
+    E_State.Idle: IF timer.Q THEN state := E_State.Filling; END_IF
+    E_State.Filling: pLevel^ := pLevel^ + speed; IF level > 100 THEN state := E_State.Done; END_IF
+    E_State.Done: IF NOT run THEN state := E_State.Idle; level := 0; END_IF
+END_CASE
+END_FUNCTION_BLOCK
+FUNCTION Share : DINT
+VAR_INPUT a, b : DINT; END_VAR
+Share := a / b;
+END_FUNCTION
+
+PROGRAM PLC_PRG
+VAR
+    start AT %IX0.0 : BOOL; weight AT %IW1 : INT; valve AT %QX0.0 : BOOL;
+    filler : ARRAY [1..3] OF FB_Filler; i : INT; recipe : DINT := 10; pieces : DINT; text : STRING(20);
+    pFiller : POINTER TO FB_Filler; elapsed : TIME;
+END_VAR
+pFiller := ADR(filler[2]);
+FOR i := 1 TO 3 DO filler[i](run := start, speed := INT_TO_REAL(weight) / 10 + i); END_FOR
+pieces := pieces + Share(100, recipe);
+valve := pFiller^.level > 50;
+text := CONCAT('n', DINT_TO_STRING(pieces));
+elapsed := TIME();
+END_PROGRAM
+"""
+MAIN = [Task("Main", interval_ns=10 * MS, programs=("PLC_PRG",))]
+FIXED = BOTTLE.replace("Share := a / b;", "IF b <> 0 THEN Share := a / b; END_IF")
+"""The same program after the bug was mended."""
+
+
+def _record(
+    package: CodePackage, *, fail: bool = True, settings: FlightSettings | None = None
+) -> FlightRecording:
+    """A run with changing inputs, a written value and a force; a recipe of 0 ends it."""
+    with LocalRuntime(package, flight=settings) as runtime:
+        application = runtime.plc.application
+        assert application is not None
+        for cycle in range(60):
+            application.put_inputs(0, struct.pack("<BBh", 1 if cycle % 37 else 0, 0, cycle * 7 % 100))
+            if cycle == 20:
+                runtime.write("PLC_PRG.recipe", 4)
+            if cycle == 30:
+                runtime.force("PLC_PRG.filler[3].level", 77.5)
+            if cycle == 40:
+                runtime.unforce()
+            runtime.run(1)
+        if fail:
+            runtime.write_all({"PLC_PRG.recipe": 0, "PLC_PRG.filler[1].state": "E_State.Done"})
+            with pytest.raises(ApplicationException):
+                runtime.run(1)
+        return read_recording(write_recording(runtime.plc.flight_recording()))
+
+
+def test_a_fault_comes_again_at_its_line_and_cycle() -> None:
+    recording = _record(build(BOTTLE, MAIN))
+    assert recording.exception is not None
+    played = replay(recording, show=["PLC_PRG.pieces", "PLC_PRG.filler[1].state", "PLC_PRG.text"])
+    assert played.difference is None
+    assert played.same_fault
+    assert played.fault is not None
+    assert (played.fault.name, played.fault.pou, played.fault.line) == ("DIV_ZERO", "Share", 17)
+    assert (played.fault.cycle, played.last_cycle) == (recording.exception.cycle, recording.exception.cycle)
+    assert played.cycles == len(recording.cycles) - 1
+    # 20 cycles with a tenth of 100 each, 40 with a quarter, by the text of the program
+    assert played.values == {
+        "PLC_PRG.pieces": str(20 * 10 + 40 * 25),
+        "PLC_PRG.filler[1].state": "Done",
+        "PLC_PRG.text": f"'n{20 * 10 + 40 * 25}'",
+    }
+
+
+def test_another_image_address_changes_nothing() -> None:
+    """The pointers of the recorded image are moved with it."""
+    recording = _record(build(BOTTLE, MAIN))
+    with LocalRuntime(build(BOTTLE, MAIN), image_address=recording.image_address) as other:
+        application = other.plc.application
+        assert application is not None
+        assert application.image.address == recording.image_address, (
+            "it takes the place of the recorded image"
+        )
+        played = replay(recording)
+    assert played.difference is None
+    assert played.same_fault
+
+
+def test_it_stops_where_it_is_told_to() -> None:
+    recording = _record(build(BOTTLE, MAIN))
+    played = replay(recording, until=25, show=["PLC_PRG.pieces"])
+    assert (played.last_cycle, played.fault) == (25, None)
+    assert played.values == {"PLC_PRG.pieces": str(20 * 10 + 5 * 25)}
+
+
+def test_a_run_without_fault_ends_as_it_did() -> None:
+    recording = _record(build(BOTTLE, MAIN), fail=False)
+    played = replay(recording)
+    assert (played.difference, played.fault, played.recorded, played.same_fault) == (None, None, None, True)
+
+
+def test_the_first_cycle_and_variable_that_differ_are_named() -> None:
+    recording = _record(build(BOTTLE, MAIN))
+    assert any(write.cycle == 21 for write in recording.writes)
+    lost = msgspec.structs.replace(recording, writes=[w for w in recording.writes if w.cycle != 21])
+    played = replay(lost)
+    assert played.difference is not None
+    assert played.difference.cycle == 21
+    found = {name: (then, now) for name, then, now in played.difference.variables}
+    assert found["PLC_PRG.recipe"] == ("4", "10")
+    assert found["PLC_PRG.pieces"] == ("225", "210")
+    assert played.same_fault, "the last write, which leads to the fault, is still there"
+
+
+def test_several_tasks_run_in_their_order() -> None:
+    text = """
+VAR_GLOBAL a, b, c : DINT; trigger : BOOL; END_VAR
+PROGRAM Fast a := a * 3 + b; trigger := a MOD 5 = 0; END_PROGRAM
+PROGRAM Slow b := b + a MOD 17 + c; END_PROGRAM
+PROGRAM Same c := c + a + b; END_PROGRAM
+PROGRAM OnEvent c := c XOR a; END_PROGRAM
+"""
+    tasks = [
+        Task("Slow", interval_ns=30 * MS, priority=5, programs=("Slow",)),
+        Task("Fast", interval_ns=10 * MS, priority=3, programs=("Fast",)),
+        Task("Same", interval_ns=20 * MS, priority=1, programs=("Same",)),
+        Task("OnEvent", kind="event", event="trigger", priority=9, programs=("OnEvent",)),
+    ]
+    package = build(text, tasks)
+    for seconds in (
+        10.0,
+        0.25,
+    ):  # from the first cycle on; from the midst, where the tasks have no common start
+        with LocalRuntime(package, flight=FlightSettings(seconds=seconds)) as runtime:
+            runtime.run(103)
+            recording = runtime.plc.flight_recording()
+        assert recording.cycles[0].cycle == 1 or seconds < 1
+        played = replay(recording)
+        assert played.difference is None, played.difference
+
+
+def test_code_that_was_mended_no_longer_fails() -> None:
+    recording = _record(build(BOTTLE, MAIN))
+    mended = _built_on(recording.code(), FIXED)
+    played = replay(recording, code=mended, show=["PLC_PRG.pieces"])
+    assert (played.fault, played.same_fault) == (None, False)
+    assert played.values == {"PLC_PRG.pieces": str(20 * 10 + 40 * 25)}
+    still = replay(recording, code=_built_on(recording.code(), BOTTLE.replace("a / b;", "a / b; // why?")))
+    assert still.fault is not None
+    assert still.same_fault
+
+
+def test_variables_of_mended_code_are_found_by_name() -> None:
+    """A variable before all others moves them: inputs, writes and forces still reach their own."""
+    recording = _record(build(BOTTLE, MAIN))
+    text = FIXED.replace("pieces : DINT;", "extra : ARRAY [0..99] OF LREAL; pieces : DINT; more : INT := 3;")
+    text = text.replace("VAR state :", "VAR before : LWORD; state :")
+    played = replay(
+        recording,
+        code=_built_on(recording.code(), text),
+        show=["PLC_PRG.pieces", "PLC_PRG.recipe", "PLC_PRG.more"],
+    )
+    assert played.fault is None
+    pieces = str(20 * 10 + 40 * 25)
+    assert played.values == {"PLC_PRG.pieces": pieces, "PLC_PRG.recipe": "0", "PLC_PRG.more": "3"}
+
+
+def _built_on(package: CodePackage, text: str) -> CodePackage:
+    result = build_application([Source("a.st", text)], MAIN, BuildOptions(), previous=package)
+    assert result.package is not None, result.diagnostics
+    return result.package
+
+
+def test_code_of_something_else_is_refused() -> None:
+    recording = _record(build(BOTTLE, MAIN))
+    with pytest.raises(ReplayError, match="no online change"):
+        replay(recording, code=build(FIXED, MAIN))
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [({"bus": None}, "no bus cycle task"), ({"period": 2}, "every 2th"), ({"parts": 3}, "a part of it")],
+)
+def test_what_lacks_cycles_is_refused(change: dict[str, object], says: str) -> None:
+    recording = _record(build(BOTTLE, MAIN), fail=False)
+    with pytest.raises(ReplayError, match=says):
+        replay(msgspec.structs.replace(recording, **change))
+
+
+def test_a_real_run_ends_in_its_fault_again() -> None:
+    """Recorded in real time, with writes that arrive whenever they do."""
+    package = build(BOTTLE.replace("elapsed := TIME();", ""), MAIN)
+    with LocalRuntime(package, virtual=False) as runtime:
+        for value in (5, 20, 50, 0):
+            time.sleep(0.03)
+            runtime.write("PLC_PRG.recipe", value)
+        due = time.monotonic() + 10
+        while runtime.exception is None and time.monotonic() < due:
+            time.sleep(0.005)
+        recording = read_recording(write_recording(runtime.plc.flight_recording()))
+    assert recording.exception is not None
+    played = replay(recording, show=["PLC_PRG.recipe"])
+    assert played.same_fault
+    assert played.difference is None, played.difference
+    assert played.fault is not None
+    assert played.fault.cycle == recording.exception.cycle
+    assert played.values == {"PLC_PRG.recipe": "0"}
