@@ -15,7 +15,7 @@ from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Block
 from tappet.runtime.faults import RawFault
 from tappet.runtime.files import ApplicationFiles
-from tappet.runtime.flight import FlightRecorder, FlightSettings
+from tappet.runtime.flight import FlightSettings, make_flight
 from tappet.runtime.forces import Force, ForceTable, PlacedValue, ValueList
 from tappet.runtime.heap import ApplicationHeap
 from tappet.runtime.image import Image
@@ -95,25 +95,8 @@ class LoadedApplication(ApplicationCode):
         self._batches: list[list[tuple[int, ValueList]]] = [[] for _ in package.tasks]
         self.connect_code(self.code)
         self.connect_io()
-        self.flight = self._make_flight(flight or FlightSettings())
+        self.flight = make_flight(self, flight or FlightSettings())
         self.connect_flight()
-
-    def _make_flight(self, settings: FlightSettings) -> FlightRecorder | None:
-        """The flight recorder, at the bus cycle task; None without task, memory or wish for it."""
-        bus = self.ownership.bus
-        if bus is None or not settings.memory:
-            return None
-        try:
-            return FlightRecorder(
-                self.executive,
-                settings,
-                self.image,
-                self.package.tasks[bus].interval_ns,
-                faulted=lambda: self.tasks.state == FAULTED,
-                touch=not self.virtual,
-            )
-        except OSError:
-            return None
 
     def connect_flight(self) -> None:
         """Let the bus cycle task record the image as it is now; what was kept is dropped. While no task

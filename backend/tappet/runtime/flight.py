@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
+from tappet.runtime.contexts import FAULTED
 from tappet.runtime.executive.records import Record
 from tappet.runtime.flight_deltas import BLOCK, ENTRY_SIZE, Entry, FlightError, rebuild, unpack_entries
 from tappet.runtime.image import Image
@@ -307,6 +308,24 @@ def _not_kept(cycle: int, entries: Sequence[Entry], at: int) -> str:
         f"cycle {cycle} is not kept; the flight recorder holds cycles {entries[0].cycle} to "
         f"{entries[-1].cycle}, next to it {' and '.join(near)}"
     )
+
+
+def make_flight(application: LoadedApplication, settings: FlightSettings) -> FlightRecorder | None:
+    """The flight recorder, at the bus cycle task; None without task, memory or wish for it."""
+    bus = application.ownership.bus
+    if bus is None or not settings.memory:
+        return None
+    try:
+        return FlightRecorder(
+            application.executive,
+            settings,
+            application.image,
+            application.package.tasks[bus].interval_ns,
+            faulted=lambda: application.tasks.state == FAULTED,
+            touch=not application.virtual,
+        )
+    except OSError:
+        return None
 
 
 def note_flight(application: LoadedApplication, settings: FlightSettings, log: Logbook) -> None:
