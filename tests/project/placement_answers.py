@@ -61,6 +61,7 @@ def every_kind() -> Project:
     add(application.id, "persistent", "Kept")
     add(application.id, "scene", "Scene")
     add(application.id, "trace", "Trace")
+    add(application.id, "flight_recording", "Monday")
     pool = add(application.id, "axis_pool", "SoftMotion General Axis Pool")
     add(pool, "axis", "Axis")
     add(application.id, "cam", "Cam")

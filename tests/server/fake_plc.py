@@ -17,6 +17,7 @@ from tappet.runtime.client import RuntimeEvent, RuntimeRefused
 from tappet.runtime.errors import NoApplicationError, NoTraceError, PlcError
 from tappet.runtime.exception_report import CallFrame, ExceptionReport
 from tappet.runtime.flight import FlightStatus
+from tappet.runtime.flight_recording import FlightRecording
 from tappet.runtime.forces import Force, PlacedValue
 from tappet.runtime.image import ImageMemory
 from tappet.runtime.logbook import LogEntry
@@ -102,6 +103,7 @@ class FakePlc:
     cycle: int = 0
     past: dict[int, bytes] = field(default_factory=dict)
     frozen: bool = False
+    recording: FlightRecording | None = None
     source: SourceStore = field(default_factory=lambda: SourceStore(None))
 
     async def connect(self, url: str, token: str) -> FakeClient:
@@ -262,6 +264,11 @@ class FakePlc:
         if cycle not in self.past:
             raise ValueError(f"cycle {cycle} is not kept")
         return [self.past[cycle][offset : offset + size] for offset, size in places]
+
+    def flight_recording(self) -> FlightRecording:
+        if self.recording is None:
+            raise PlcError("the flight recorder holds no cycle: the application has not run")
+        return self.recording
 
     def flight_freeze(self, on: bool) -> FlightStatus:
         self.frozen = on

@@ -57,6 +57,7 @@ OF_VIEWERS = {
     "/api/v1/projects/{project_id}/comparisons/{comparison_id}",
     "/api/v1/projects/{project_id}/objects/{object_id}/view",
     "/api/v1/projects/{project_id}/recipes/{definition_id}/file",
+    "/api/v1/projects/{project_id}/recordings/{object_id}/open",
     "/api/v1/projects/{project_id}/search",
     "/api/v1/runtimes/{runtime_id}/cams/{name}/read",
     "/api/v1/runtimes/{runtime_id}/flight/read",

@@ -68,6 +68,13 @@ COMMANDS = (
         goes_on=True,
     ),
     Command(
+        ("replay",),
+        "replay",
+        "replay",
+        "Run a recording of the flight recorder again; exit code 1 when it does not go as recorded.",
+        goes_on=True,
+    ),
+    Command(
         ("import",),
         "projects",
         "import_project",

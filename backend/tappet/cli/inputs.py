@@ -21,6 +21,7 @@ from tappet.runtime.unit_tests.discovery import TEST_LIBRARY, has_suites
 if TYPE_CHECKING:
     from tappet.lang.coding_settings import StaticAnalysis
     from tappet.project.model import Project
+    from tappet.runtime.unit_tests.recordings import RecordedTest
 
 BARE_TASK_INTERVAL_NS = 10_000_000
 """A PROGRAM of a bare .st file runs every 10 ms (docs/architecture.md, section 3)."""
@@ -34,6 +35,8 @@ class ApplicationInput:
     sources: tuple[Source, ...]
     tasks: tuple[Task, ...]
     options: BuildOptions
+    recordings: tuple[RecordedTest, ...] = ()
+    """Recordings of the flight recorder that are tests."""
 
 
 def load_project(path: Path) -> Project:
@@ -96,9 +99,21 @@ def project_applications(project: Project) -> list[ApplicationInput]:
                 reserve=project_sources.change_reserve(project, application.id),
                 once=True,
             ),
+            _recordings(project, application.id),
         )
         for application in project.applications()
     ]
+
+
+def _recordings(project: Project, application_id: str) -> tuple[RecordedTest, ...]:
+    from tappet.project.kinds.flight_recording import FlightRecordingData
+    from tappet.runtime.unit_tests.recordings import RecordedTest
+
+    return tuple(
+        RecordedTest(item.name, item.data.recording)
+        for item in project.walk(application_id)
+        if isinstance(item.data, FlightRecordingData) and item.data.tested and item.data.recording
+    )
 
 
 def _static(project: Project, application_id: str) -> StaticAnalysis:

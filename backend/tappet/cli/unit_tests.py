@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from argparse import Namespace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tappet.cli.arguments import ArgumentParser, integer
@@ -12,6 +13,7 @@ from tappet.cli.output import counted, show_json
 from tappet.whole_file import write_output
 
 if TYPE_CHECKING:
+    from tappet.cli.inputs import ApplicationInput
     from tappet.runtime.unit_tests.results import Failure, Report
 
 NS_PER_S = 1_000_000_000
@@ -57,17 +59,21 @@ def run_unit_tests(given: Namespace) -> int:
     if not chosen:
         raise UsageError("the project has no application to test")
     reports = [
-        run_in_process(
-            order(
-                a.options.application,
-                a.sources,
-                a.tasks,
-                a.options.libraries,
-                defines=a.options.defines,
-                test_filter=given.filter,
-                limits=limits,
-                heap=a.options.heap,
-            )
+        _with_recordings(
+            a,
+            given.filter,
+            run_in_process(
+                order(
+                    a.options.application,
+                    a.sources,
+                    a.tasks,
+                    a.options.libraries,
+                    defines=a.options.defines,
+                    test_filter=given.filter,
+                    limits=limits,
+                    heap=a.options.heap,
+                )
+            ),
         )
         for a in chosen
     ]
@@ -79,6 +85,24 @@ def run_unit_tests(given: Namespace) -> int:
     else:
         _show(merged)
     return 0 if merged.ok else 1
+
+
+def _with_recordings(application: ApplicationInput, test_filter: str, report: Report) -> Report:
+    """The report with the recordings of the application, which are replayed on what it is now."""
+    if not application.recordings or report.diagnostics:
+        return report
+    from tappet.codegen.build import build_application
+    from tappet.codegen.package import CodePackage
+    from tappet.runtime.unit_tests.recordings import chosen_tests, replay_tests, with_recordings
+    from tappet.user_cache import cache_folder
+
+    options = replace(application.options, cache=cache_folder("objects"))
+
+    def build(recorded: CodePackage) -> CodePackage | None:
+        return build_application(application.sources, application.tasks, options, previous=recorded).package
+
+    chosen = chosen_tests(application.recordings, test_filter)
+    return with_recordings(report, replay_tests(chosen, build))
 
 
 def _seconds(text: str) -> float:

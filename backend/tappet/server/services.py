@@ -78,7 +78,7 @@ class Services:
 
     def samplers(self, link: RuntimeLink) -> SamplerPool:
         """The samplers of a runtime, shared by all who watch it."""
-        for gone in [known for known in self._samplers if known not in self.runtimes.all()]:
+        for gone in [known for known in self._samplers if self.runtimes.find(known.id) is not known]:
             del self._samplers[gone]
         if link not in self._samplers:
             self._samplers[link] = SamplerPool(link)

@@ -31,6 +31,8 @@ NS_PER_S = 1_000_000_000
 CHUNK = 100
 """Cycles between two looks whether all tests have finished."""
 
+NO_TESTS = "there are no tests: no block extends FB_TestSuite"
+
 
 @dataclass(frozen=True, slots=True)
 class TestProcess:
@@ -68,7 +70,7 @@ def run_tests(
     options = with_library(options or BuildOptions(), sources := list(sources))
     found = discover(result.unit for result in parse_sources(sources, ParseOptions(dict(options.defines))))
     if not found.suites and not found.programs:
-        return Report(options.application, problem="there are no tests: no block extends FB_TestSuite")
+        return Report(options.application, problem=NO_TESTS)
     marks: list[Mark] = []
     texts = [instrument(source, marks) for source in sources]
     programs = found.programs

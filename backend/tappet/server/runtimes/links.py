@@ -24,6 +24,8 @@ from tappet.server.runtimes.shapes import RuntimeState
 log = logging.getLogger(__name__)
 LONGEST_PAUSE_S = 15.0
 """Between two attempts to reach a lost runtime."""
+MOST_RECORDINGS = 8
+"""Open at a time."""
 PATIENCE_S = 10.0
 """How long an attempt to connect may take."""
 
@@ -280,6 +282,8 @@ class RuntimeRegistry:
         self._connect = connect
         self._first_pause_s = first_pause_s
         self._links: dict[str, RuntimeLink] = {}
+        self._recordings: dict[str, RuntimeLink] = {}
+        """What is looked at in place of a runtime, the one opened last at the end."""
 
     def add(self, name: str, url: str, token: str, id: str | None = None) -> RuntimeLink:
         """Begins to keep a connection."""
@@ -294,25 +298,48 @@ class RuntimeRegistry:
 
     def find(self, runtime_id: str) -> RuntimeLink | None:
         """The runtime, or None."""
-        return self._links.get(runtime_id)
+        return self._links.get(runtime_id) or self._recordings.get(runtime_id)
 
     def get(self, runtime_id: str) -> RuntimeLink:
         """The runtime; raises a 404 problem."""
-        link = self._links.get(runtime_id)
+        link = self.find(runtime_id)
         if link is None:
             raise not_found("runtime", runtime_id)
+        return link
+
+    async def open_recording(self, id: str, name: str, make: Callable[[], PlcClient]) -> RuntimeLink:
+        """The link to a recording, which `make` reads on a thread unless it is open. No runtime is one of
+        these: they are found by their id alone, and the oldest goes when there are many."""
+        link = self._recordings.pop(id, None)
+        if link is None:
+            client = await asyncio.to_thread(make)
+
+            async def connect(url: str, token: str) -> PlcClient:
+                return client
+
+            link = RuntimeLink(id, name, "recording:", "", connect, self._first_pause_s)
+            connected = asyncio.Event()
+            ended = link.listen(lambda _: connected.set())
+            link.start()
+            async with asyncio.timeout(PATIENCE_S):
+                await connected.wait()
+            ended()
+        self._recordings[id] = link
+        while len(self._recordings) > MOST_RECORDINGS:
+            await self._recordings.pop(next(iter(self._recordings))).close()
         return link
 
     async def remove(self, runtime_id: str) -> RuntimeLink:
         """Gives a runtime up; it continues to run by itself."""
         link = self.get(runtime_id)
-        del self._links[runtime_id]
+        (self._links if runtime_id in self._links else self._recordings).pop(runtime_id)
         await link.close()
         return link
 
     async def close(self) -> None:
         """Gives all up."""
-        await asyncio.gather(*(link.close() for link in self._links.values()))
+        links = (*self._links.values(), *self._recordings.values())
+        await asyncio.gather(*(link.close() for link in links))
 
 
 def path_of(force: ForcedValue) -> str:

@@ -1,0 +1,104 @@
+"""`tappet replay`, and recordings as tests of `tappet test`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from failing_press import BUG, MENDED, recording_of, with_text
+from tests.cli.invoke import invoke
+
+from tappet.project import edit, folder
+from tappet.project.model import Project
+from tappet.project.new_project import new_project
+
+
+@pytest.fixture(scope="module")
+def failing() -> Project:
+    """A project with a bug, and the recording of what the bug did in the field."""
+    project = with_text(new_project("Press"), BUG)
+    text = recording_of(project)
+    application = project.applications()[0].id
+    project, added = edit.add_object(project, application, "flight_recording", "Stop of Monday")
+    return edit.change_data(project, added.id, added.data.model_dump() | {"recording": text})
+
+
+@pytest.fixture
+def press(failing: Project, tmp_path: Path) -> Path:
+    folder.save(failing, tmp_path / "press")
+    return tmp_path / "press"
+
+
+def test_the_fault_comes_again(press: Path) -> None:
+    done = invoke("replay", press / "Stop of Monday", "--print", "PLC_PRG.pieces")
+    assert (done.code, done.errors) == (0, "")
+    assert "division by zero in PLC_PRG, line 1, cycle 21" in done.output
+    assert "all variables are as recorded" in done.output
+    assert "PLC_PRG.pieces = 400" in done.output
+    (file,) = press.rglob("*.flight")
+    alone = invoke("replay", file, "--until-fault", "--format", "json")
+    report = json.loads(alone.output)
+    assert (alone.code, report["ok"], report["same_fault"], report["fault"]["cycle"]) == (0, True, True, 21)
+
+
+def test_it_is_replayed_on_the_program_of_today(failing: Project, press: Path, tmp_path: Path) -> None:
+    still = invoke("replay", press / "stop of monday", "--on", press)
+    assert still.code == 1
+    assert "division by zero in PLC_PRG" in still.output
+    folder.save(with_text(failing, MENDED), tmp_path / "mended")
+    good = invoke(
+        "replay", press / "Stop of Monday", "--on", tmp_path / "mended", "--print", "PLC_PRG.pieces"
+    )
+    assert good.code == 0, good
+    assert "replayed: no exception" in good.output
+    assert "PLC_PRG.pieces = 400" in good.output
+
+
+def test_a_recording_is_a_test_of_the_project(failing: Project, press: Path, tmp_path: Path) -> None:
+    failed = invoke("test", press)
+    assert failed.code == 1
+    assert "Flight recordings" in failed.output
+    assert "FAILED  Stop of Monday" in failed.output
+    assert "cycle 21: division by zero" in failed.output
+    folder.save(with_text(failing, MENDED), tmp_path / "mended")
+    junit = tmp_path / "report.xml"
+    passed = invoke("test", tmp_path / "mended", "--junit", junit)
+    assert passed.code == 0, passed
+    assert "ok      Stop of Monday" in passed.output
+    assert 'tests="1" failures="0"' in junit.read_text()
+    assert invoke("test", press, "--filter", "monday*never").code == 1
+
+
+def test_one_that_is_no_test_is_left_out(failing: Project, tmp_path: Path) -> None:
+    item = next(item for item in failing.walk() if item.kind == "flight_recording")
+    project = edit.change_data(failing, item.id, item.data.model_dump() | {"tested": False})
+    folder.save(project, tmp_path / "press")
+    done = invoke("test", tmp_path / "press")
+    assert done.code == 1
+    assert "no block extends FB_TestSuite" in done.errors
+
+
+def test_what_cannot_be_replayed_says_why(press: Path, tmp_path: Path) -> None:
+    (file,) = press.rglob("*.flight")
+    damaged = tmp_path / "damaged.flight"
+    damaged.write_text(file.read_text()[:-40])
+    for arguments, says in (
+        ((damaged,), "damaged"),
+        ((tmp_path / "none.flight",), "neither a file nor an object"),
+        ((press / "Tuesday",), "there is Stop of Monday"),
+        ((file, "--until", "-1"), "--until"),
+    ):
+        refused = invoke("replay", *arguments)
+        assert refused.code == 2, refused
+        assert says in refused.errors
+    unknown = invoke("replay", file, "--print", "PLC_PRG.nope")
+    assert unknown.code == 1
+    assert "nope" in unknown.errors
+
+
+def test_the_folder_holds_the_file_as_it_is(failing: Project, press: Path) -> None:
+    (file,) = press.rglob("*.flight")
+    item = next(item for item in failing.walk() if item.kind == "flight_recording")
+    assert file.read_text() == item.data.model_dump()["recording"]
+    assert folder.load(press).objects[item.id].data == item.data
