@@ -12,6 +12,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from .conftest import Server, new_profile, start_page
 from .workbench import (
     add_line,
+    choose_menu,
     log_in,
     open_object,
     open_project,
@@ -131,6 +132,35 @@ def test_an_exception_opens_the_bar_and_the_cycle_before_is_a_step_away(page: Pa
     expect(bar.get_by_role("status")).to_contain_text("the one of the fault")
     bar.get_by_role("button", name="Back to Live Values").click()
     expect(bar).to_have_count(0)
+
+
+def test_a_recording_is_kept_looked_into_and_replayed(page: Page) -> None:
+    row, _ = _to_the_fault(page)
+    choose_menu(page, "Debug", "Save Past Cycles")
+    tab = page.locator(".dv-tab").filter(has_text="Recording 20")
+    expect(tab).to_be_visible()
+    held = page.get_by_role("tabpanel").filter(has_text="Look into It")
+    expect(held).to_contain_text("Division by zero · PLC_PRG, line 2")
+    page.keyboard.press("Control+F8")
+    expect(status_bar(page).get_by_text("Offline")).to_be_visible()
+
+    held.get_by_role("button", name="Look into It").click()
+    bar = _bar(page)
+    expect(bar).to_be_visible()
+    expect(_value(row)).to_contain_text("1234")
+    expect(page.get_by_role("toolbar").get_by_role("button", name="Start")).to_have_attribute(
+        "aria-disabled", "true"
+    )
+    bar.get_by_role("slider").press("Home")
+    expect(bar.get_by_role("status")).to_contain_text("before the fault")
+    expect(_value(row)).not_to_contain_text("1234")
+    row.get_by_role("gridcell").nth(3).dblclick()
+    expect(page.get_by_text("A recording is shown").first).to_be_visible()
+    page.keyboard.press("Control+F8")
+    expect(status_bar(page).get_by_text("Offline")).to_be_visible()
+
+    held.get_by_role("button", name="On the Present Program").click()
+    expect(held.get_by_role("status")).to_contain_text("Division by zero", timeout=120_000)
 
 
 @pytest.mark.slow

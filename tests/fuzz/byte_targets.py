@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import base64
 import contextlib
+import hashlib
 import io
 import zipfile
+import zlib
 from functools import cache
 from pathlib import Path
+
+import msgspec
 
 from tappet.codegen.build import build_application
 from tappet.codegen.literals import format_string, format_time, parse_string, parse_time
@@ -17,6 +22,8 @@ from tappet.project.errors import FolderFormatError
 from tappet.project.folder import archive as project_archive
 from tappet.project.folder import codec
 from tappet.runtime import protocol, recorder_wire
+from tappet.runtime.flight_recording import RecordingError, read_recording, write_recording
+from tappet.runtime.local import LocalRuntime
 from tappet.runtime.operations import registry
 from tappet.runtime.operations.download import DownloadChunk
 from tappet.runtime.operations.life_cycle import Reset
@@ -91,6 +98,26 @@ def packages() -> list[bytes]:
     built = build_application([Source("a.st", text)]).package
     assert built is not None
     return [built.to_bytes()]
+
+
+def flight(data: bytes) -> None:
+    """A recording of the flight recorder: as its content in a file, and as a file."""
+    for text in (data.decode("utf-8", "replace"), _flight_file(data)):
+        with contextlib.suppress(RecordingError):
+            read_recording(text).code()
+
+
+def _flight_file(content: bytes) -> str:
+    packed = zlib.compress(content)
+    head = f"TAPPET-FLIGHT 1 sha256={hashlib.sha256(packed).hexdigest()}"
+    return f"{head}\n{base64.b64encode(packed).decode()}\n"
+
+
+def flights() -> list[bytes]:
+    with LocalRuntime(CodePackage.from_bytes(packages()[0])) as runtime:
+        runtime.run(5)
+        recording = runtime.plc.flight_recording()
+    return [msgspec.msgpack.encode(recording), write_recording(recording).encode()]
 
 
 def frame(data: bytes) -> None:

@@ -134,6 +134,7 @@ TARGETS = {
     "folder": Target(byte_targets.folder, byte_targets.folders),
     "archive": Target(byte_targets.archive, byte_targets.archives, mutated_bytes),
     "library": Target(byte_targets.library_file, byte_targets.library_files, mutated_bytes),
+    "flight": Target(byte_targets.flight, byte_targets.flights, mutated_values),
     "package": Target(byte_targets.package, byte_targets.packages, mutated_values),
     "frame": Target(byte_targets.frame, byte_targets.frames, mutated_values),
     "literal": Target(byte_targets.literal, byte_targets.literals),

@@ -1,6 +1,7 @@
 /** What must hold for commands to run: `enabled: when(online, connected, engineer)`. */
 import type { Enablement } from './commands';
 import type { CommandContext } from './context';
+import { isRecording } from './onlineSession';
 import { atLeast } from './rights';
 
 export type Condition = (context: CommandContext) => Enablement;
@@ -32,6 +33,9 @@ export const idle: Condition = ({ busy }) => (busy ? 'reason.busy' : true);
 export const live: Condition = (context) => (context.online?.past != null ? 'reason.past' : true);
 
 export const online: Condition = (context) => (context.online ? true : 'reason.notLoggedIn');
-/** The controller that one is logged in to answers. */
-export const connected: Condition = (context) =>
+/** What one is logged in to answers, be it a controller or a recording. */
+export const there: Condition = (context) =>
   context.online?.lostSince != null || context.online?.runtime?.connected === false ? 'reason.connectionLost' : true;
+/** A controller that one is logged in to answers. */
+export const connected: Condition = (context) =>
+  isRecording(context.online?.runtimeId) ? 'reason.recording' : there(context);

@@ -33,6 +33,11 @@ export interface OnlineSession {
   past: PastMoment | null;
 }
 
+/** Whether a recording of the flight recorder is looked into in place of a runtime. */
+export function isRecording(runtimeId: string | null | undefined): boolean {
+  return runtimeId?.startsWith('recording-') === true;
+}
+
 interface OnlineState {
   sessions: Readonly<Record<string, OnlineSession>>;
   /** Paths of forced variables, by runtime. */

@@ -6,14 +6,16 @@ import {
   OctagonAlert,
   Play,
   RadioTower,
+  Save,
   StepBack,
   StepForward,
 } from 'lucide-react';
 import { contextChanged, menuGroup, registerCommands, type Enablement } from '@/workbench/commands';
-import { connected, online, when, type Condition } from '@/workbench/conditions';
+import { application, connected, engineer, online, there, when, type Condition } from '@/workbench/conditions';
 import type { CommandContext } from '@/workbench/context';
 import { jumpToFrame } from '@/workbench/online/exception';
 import { atLeast } from '@/workbench/rights';
+import { saveRecording } from './recordings';
 import { closeTimeBar, lookAt, openTimeBar, step, timeBar, togglePlay, useTimeBars } from './store';
 
 /** To look back into a running application its recording has to stop, which is not for everybody. */
@@ -21,7 +23,7 @@ const mayOpen: Condition = (context): Enablement => {
   if (timeBar(context.online?.runtimeId) !== null || context.online?.runtime?.state !== 'run') return true;
   return atLeast(context.role, 'operator') ? true : 'reason.operator';
 };
-const reachable = when(online, connected, mayOpen);
+const reachable = when(online, there, mayOpen);
 const open: Condition = (context) => (timeBar(context.online?.runtimeId) !== null ? true : 'past.notOpen');
 
 /** Opens the bar where it is closed; answers whether it was open. */
@@ -109,6 +111,14 @@ const commands = menuGroup(
     checked: (context) => timeBar(context.online?.runtimeId)?.playing != null,
     enabled: when(reachable, open),
     run: onBar((runtimeId) => togglePlay(runtimeId)),
+  },
+  {
+    id: 'past.save',
+    title: 'past.save',
+    icon: Save,
+    enabled: when(online, connected, engineer, application),
+    run: ({ projectId, applicationId, online: session }) =>
+      saveRecording(projectId!, applicationId!, session!.runtimeId),
   },
   {
     id: 'past.live',

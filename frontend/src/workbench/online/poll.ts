@@ -4,7 +4,7 @@ import { useEffect } from 'react';
 import { api, ApiError } from '@/api/client';
 import { keys, runtimeQuery } from '@/api/queries';
 import type { TaskState } from '@/api/types';
-import { connectionLost, runtimePolled } from '../onlineSession';
+import { connectionLost, isRecording, runtimePolled } from '../onlineSession';
 
 const STATE_MS = 2000;
 const TASKS_MS = 1000;
@@ -31,7 +31,7 @@ export function useTasks(runtimeId: string | null): UseQueryResult<TaskState[]> 
   return useQuery({
     queryKey: keys.tasks(runtimeId ?? ''),
     queryFn: () => api.get('/api/v1/runtimes/{runtime_id}/tasks', { params: { path } }),
-    enabled: runtimeId !== null,
+    enabled: runtimeId !== null && !isRecording(runtimeId),
     refetchInterval: TASKS_MS,
     retry: false,
   });
