@@ -14,6 +14,7 @@ from tappet import __version__
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime.client import RuntimeEvent, RuntimeRefused
+from tappet.runtime.debugger.shapes import DebugState
 from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.flight import FlightStatus
 from tappet.runtime.flight_deltas import FlightError
@@ -129,6 +130,10 @@ class RecordedPlc:
         return self._application.package.symbols
 
     async def download(self, package: bytes, mode: LoadMode) -> RuntimeInfo:
+        """Never."""
+        raise RuntimeRefused("refused", _REFUSAL)
+
+    async def load_variant(self, variant: bytes) -> DebugState:
         """Never."""
         raise RuntimeRefused("refused", _REFUSAL)
 
