@@ -8,6 +8,7 @@ import { setImportComparison } from '@/workbench/exchange/comparison';
 import { setQuickFixSource } from '@/workbench/messages/quickFixes';
 import { setSymbolSource } from '@/workbench/palette/symbolSource';
 import { registerPanel } from '@/workbench/panels';
+import { registerBreakpointCommands } from './online/breakpointCommands';
 import { registerTextCommands } from './text/commands';
 import { fetchBeforehand, onDemand } from '@/ui/onDemand';
 
@@ -31,6 +32,7 @@ export function registerEditors(): void {
     order: 55,
   });
   registerLanguages();
+  registerBreakpointCommands();
   fetchBeforehand(loadMonaco);
   setQuickFixSource(async (message, show) => {
     const { quickFixesOfMessage } = await import('./text/quickFixes');

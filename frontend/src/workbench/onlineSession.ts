@@ -120,12 +120,14 @@ function change(where: (session: OnlineSession) => boolean, values: Partial<Onli
 }
 
 /** How a session looks: the colour of editor headers, tree nodes and the status bar. */
-export type OnlineTone = 'running' | 'stopped' | 'exception' | 'simulated' | 'lost' | 'past' | 'unknown';
+export type OnlineTone =
+  'running' | 'halted' | 'stopped' | 'exception' | 'simulated' | 'lost' | 'past' | 'unknown';
 
 export function onlineTone(session: OnlineSession | null | undefined, simulated = false): OnlineTone {
   if (!session?.runtime) return session?.lostSince ? 'lost' : 'unknown';
   if (session.lostSince !== null || !session.runtime.connected) return 'lost';
   if (session.past !== null) return 'past';
+  if (session.runtime.halted.length > 0) return 'halted';
   switch (session.runtime.state) {
     case 'run':
       return simulated ? 'simulated' : 'running';

@@ -1,5 +1,6 @@
 /** What the workbench itself brings: its tool panels and the commands of the menus. */
 import {
+  CircleDot,
   FileText,
   FolderTree,
   Layers,
@@ -23,6 +24,8 @@ import { registerStaticAnalysisCommands } from './commands/staticAnalysis';
 import { registerToolsCommands } from './commands/tools';
 import { registerViewCommands } from './commands/view';
 import { registerWindowCommands } from './commands/window';
+import { registerDebuggerCommands } from './debugger/commands';
+import { followDebugger } from './debugger/follow';
 import { useMessageBadge } from './messages/badge';
 import MessagesPanel from './messages/MessagesPanel';
 import { translateMessages } from './messages/store';
@@ -117,12 +120,22 @@ export function registerWorkbench(): void {
     position: 'right',
     order: 40,
   });
+  registerPanel({
+    id: 'breakpoints',
+    title: 'panel.breakpoints',
+    icon: CircleDot,
+    component: onDemand(() => import('./debugger/BreakpointsPanel')),
+    position: 'bottom',
+    order: 48,
+  });
   registerTests();
   registerFileCommands();
   registerExchangeCommands();
   registerEditCommands();
   registerProjectCommands();
   registerOnlineCommands();
+  registerDebuggerCommands();
+  followDebugger();
   registerSourceCommands();
   registerVersionCommands();
   registerLibraryCommands();

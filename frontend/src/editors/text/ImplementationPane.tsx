@@ -5,6 +5,7 @@ import { useText } from '@/i18n';
 import { languageClient } from '@/lsp/session';
 import type { EditorProps } from '@/project/editorProps';
 import type { OpenText } from '@/text/useTextDocument';
+import { useBreakpoints } from '../online/useBreakpoints';
 import { useFaultLine } from '../online/useFaultLine';
 import { useOnlineView } from '../online/useOnlineView';
 import { CodePane, type CodeEditor } from '@/text/CodePane';
@@ -38,6 +39,7 @@ export function ImplementationPane(props: EditorProps & OpenText & { object: Obj
   useAutoDeclare(panel, editor);
   useOnlineView({ ...props, part: 'implementation', editor });
   useFaultLine(projectId, object, 'implementation', editor);
+  useBreakpoints(projectId, object, 'implementation', editor);
   useBookmarkMarks(object.id, 'implementation', editor);
   return (
     <TextMenu panelId={panelId}>

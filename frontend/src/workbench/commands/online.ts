@@ -31,6 +31,7 @@ import {
   reset,
   runtimeAct,
 } from '../online/acts';
+import { control } from '../debugger/acts';
 import { waitsForStart } from '../online/runtimeText';
 
 const hasMessages = (): Enablement => {
@@ -43,8 +44,9 @@ const notRunning = (context: CommandContext): Enablement => {
   if (state(context) === 'run') return 'reason.running';
   return state(context) === 'exception' ? 'reason.exception' : true;
 };
+const isHalted = (context: CommandContext) => (context.online?.runtime?.halted.length ?? 0) > 0;
 const startable = (context: CommandContext): Enablement =>
-  waitsForStart(context.online?.runtime?.exception) ? true : notRunning(context);
+  waitsForStart(context.online?.runtime?.exception) || isHalted(context) ? true : notRunning(context);
 const running = (context: CommandContext): Enablement => (state(context) === 'stop' ? 'reason.stopped' : true);
 const changed = (context: CommandContext): Enablement =>
   context.online?.relation === 'same' && context.dirtyPanels.length === 0 ? 'reason.nothingChanged' : true;
@@ -200,7 +202,9 @@ const commands: Command[] = [
       keys: ['F5'],
       toolbar: { group: '3_run', order: 1 },
       enabled: when(online, connected, operator, startable),
-      run: (context) => runtimeAct(context, 'start'),
+      // What stands at a breakpoint goes on.
+      run: (context) =>
+        isHalted(context) ? control(context.online!.runtimeId, 'continue') : runtimeAct(context, 'start'),
     },
     {
       id: 'debug.stop',

@@ -2,6 +2,8 @@ import { Layers, LogIn, OctagonAlert } from 'lucide-react';
 import { useMemo, useState } from 'react';
 import type { CallFrame, RuntimeException } from '@/api/types';
 import { useText } from '@/i18n';
+import { HaltedStack } from '../debugger/HaltedStack';
+import { useDebugged } from '../debugger/useDebugged';
 import { runCommand } from '../run';
 import { Button } from '@/ui/Button';
 import { Empty } from '@/ui/Empty';
@@ -17,6 +19,7 @@ import { useActiveSession } from './session';
 export default function CallStackPanel() {
   const t = useText();
   const session = useActiveSession();
+  const looked = useDebugged();
   if (!session)
     return (
       <Empty icon={Layers} title={t('exception.offline')} text={t('exception.offlineText')}>
@@ -26,6 +29,8 @@ export default function CallStackPanel() {
       </Empty>
     );
   const exception = session.runtime?.exception;
+  if (!exception && looked?.debugged && looked.debugged.state.halted.length > 0)
+    return <HaltedStack runtimeId={looked.runtimeId} debugged={looked.debugged} />;
   if (!exception) return <Empty icon={Layers} title={t('exception.none')} text={t('exception.noneText')} />;
   return <Report exception={exception} />;
 }

@@ -2,6 +2,7 @@ import type { OnlineTone } from '../onlineSession';
 
 const TONE_COLORS: Record<OnlineTone, string> = {
   running: 'var(--ok)',
+  halted: 'var(--error)',
   stopped: 'var(--error)',
   exception: 'var(--error)',
   simulated: 'var(--warn)',

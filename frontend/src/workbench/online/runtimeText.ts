@@ -4,6 +4,7 @@ import type { OnlineTone } from '../onlineSession';
 
 export function toneOfRuntime(runtime: RuntimeState): OnlineTone {
   if (!runtime.connected) return 'lost';
+  if (runtime.halted.length > 0) return 'halted';
   switch (runtime.state) {
     case 'run':
       return 'running';
@@ -18,6 +19,8 @@ export function toneOfRuntime(runtime: RuntimeState): OnlineTone {
 
 /** State of a runtime in words. */
 export function runtimeText(runtime: RuntimeState, t: typeof text): string {
+  if (runtime.connected && runtime.halted.length > 0)
+    return t('runtime.state.halted', { tasks: runtime.halted.join(', ') });
   return t(runtime.connected ? `runtime.state.${runtime.state ?? 'empty'}` : 'runtime.state.notConnected');
 }
 

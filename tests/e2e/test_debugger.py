@@ -1,0 +1,104 @@
+"""Debugging in the browser: breakpoints, steps, the call stack with its variables."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from .conftest import Server
+from .workbench import choose_menu, implementation, log_in, open_object, open_project, show_panel, status_bar
+
+pytestmark = pytest.mark.e2e
+
+CALL, NEXT = 3, 4
+"""Lines of PLC_PRG: a call of a block of a library, and the statement behind it."""
+
+
+@pytest.fixture
+def debugged(page: Page) -> Iterator[Page]:
+    open_project(page)
+    open_object(page, "PLC_PRG")
+    log_in(page)
+    yield page
+    choose_menu(page, "Debug", "Remove All Breakpoints")
+    if "halted" in status_bar(page).inner_text():
+        page.keyboard.press("F5")
+    expect(status_bar(page)).to_contain_text("running")
+
+
+def picture(page: Page, name: str) -> None:
+    folder = os.environ.get("TAPPET_PICTURES")
+    if folder:
+        for theme in ("light", "dark"):
+            page.emulate_media(color_scheme=theme)
+            page.evaluate("theme => { document.documentElement.dataset.theme = theme }", theme)
+            page.screenshot(path=str(Path(folder) / f"{name}-{theme}.png"))
+
+
+def go_to(page: Page, line: int) -> Locator:
+    editor = implementation(page)
+    editor.click()
+    page.keyboard.press("Control+g")
+    page.keyboard.type(str(line))
+    page.keyboard.press("Enter")
+    return editor
+
+
+def stack(page: Page) -> Locator:
+    return page.get_by_role("grid", name="Call stack").get_by_role("row")
+
+
+def test_a_breakpoint_halts_and_the_program_is_stepped_through(debugged: Page) -> None:
+    page = debugged
+    go_to(page, CALL)
+    page.keyboard.press("F9")
+    expect(status_bar(page)).to_contain_text("halted: MainTask", timeout=60_000)
+    level = stack(page).filter(has_text="PLC_PRG").first
+    expect(level).to_contain_text(str(CALL))
+    expect(page.get_by_text("Halted at a breakpoint")).to_be_visible()
+    expect(page.get_by_text("outputs: kept")).to_be_visible()
+    picture(page, "debugger-halted")
+    page.keyboard.press("F10")
+    expect(level).to_contain_text(str(NEXT))
+    expect(page.get_by_text("Halted after a step")).to_be_visible()
+    variables = page.get_by_role("grid", name="Variables of the level")
+    row = variables.get_by_role("row", name=re.compile(r"^iLoaded"))
+    row.dblclick()
+    field = variables.get_by_role("textbox")
+    field.fill("3")
+    field.press("Enter")
+    expect(row).to_contain_text("3")
+    show_panel(page, "Breakpoints")
+    breakpoints = page.get_by_role("grid", name="Breakpoints")
+    expect(breakpoints.get_by_role("row").filter(has_text="PLC_PRG")).to_have_count(1)
+    picture(page, "debugger-breakpoints")
+    page.keyboard.press("F5")
+    expect(status_bar(page)).to_contain_text("halted: MainTask")
+    go_to(page, CALL)
+    page.keyboard.press("F9")
+    expect(breakpoints.get_by_role("row").filter(has_text="PLC_PRG")).to_have_count(0)
+    page.keyboard.press("F5")
+    expect(status_bar(page)).to_contain_text("running")
+
+
+def test_a_breakpoint_with_conditions_is_edited_in_its_dialog(debugged: Page, server: Server) -> None:
+    page = debugged
+    go_to(page, NEXT)
+    page.keyboard.press("Alt+F9")
+    dialog = page.get_by_role("dialog", name="Breakpoint")
+    expect(dialog).to_be_visible(timeout=60_000)
+    picture(page, "debugger-dialog")
+    dialog.get_by_label("Condition").fill("iLoaded = 77")
+    dialog.get_by_role("button", name="Apply").click()
+    expect(dialog).to_be_hidden()
+    show_panel(page, "Breakpoints")
+    breakpoints = page.get_by_role("grid", name="Breakpoints")
+    expect(breakpoints.get_by_role("row").filter(has_text="iLoaded = 77")).to_have_count(1)
+    if "halted" in status_bar(page).inner_text():
+        page.keyboard.press("F5")
+    expect(status_bar(page)).to_contain_text("running")
