@@ -42,6 +42,15 @@ def tour(*opens: str) -> Callable[[Act], Act]:
     return add
 
 
+@tour("systemEvent.add")
+def system_events(ui: Ui, server: Server) -> Iterator[str]:
+    """A function for an event of the controller."""
+    open_object(ui.page, "Task Configuration")
+    ui.page.get_by_role("tab", name=ui.name("taskConfiguration.systemEvents")).click()
+    ui.button("systemEvent.add").click()
+    yield "systemEvent.add"
+
+
 @tour(
     "command.options",
     "command.password",

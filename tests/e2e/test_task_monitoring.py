@@ -1,4 +1,4 @@
-"""The monitoring page of the task configuration: times, load and histograms while a controller runs."""
+"""The task configuration: system events and groups, and the measured times while a controller runs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
-from .workbench import log_in, open_object, open_project
+from .api import change, example, stored
+from .conftest import Server
+from .workbench import log_in, objects_stored, open_object, open_project
 
 pytestmark = pytest.mark.e2e
 
@@ -32,3 +34,28 @@ def test_load_and_histograms_of_the_tasks_are_drawn(page: Page) -> None:
     task.click()
     name = task.get_by_role("gridcell").first.inner_text()
     expect(page.get_by_role("figure", name=f"Jitter of {name}")).to_be_visible()
+
+
+def test_a_function_is_coupled_to_an_event_and_its_calls_are_counted(page: Page, server: Server) -> None:
+    """TASK-05: add, download, and the counter of calls."""
+    open_project(page)
+    project = example(page, server)
+    before = stored(page, server, project, "Task Configuration")["data"]
+    open_object(page, "Task Configuration")
+    page.get_by_role("tab", name="System Events").click()
+    page.get_by_role("button", name="Add event handler").click()
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_role("combobox", name="Event")).to_have_text("StartDone")
+    with objects_stored(page):
+        dialog.get_by_role("button", name="Add").click()
+    function = page.get_by_role("textbox", name="Function to call at StartDone")
+    expect(function).to_have_value("OnStartDone")
+    expect(page.get_by_role("treeitem").filter(has_text="OnStartDone")).to_be_visible()
+    try:
+        log_in(page)
+        page.get_by_role("tab", name="System Events").click()
+        row = page.get_by_role("row").filter(has_text="StartDone")
+        expect(row.get_by_role("cell").nth(4)).to_have_text(re.compile("^[0-9]+$"))
+    finally:
+        page.keyboard.press("Control+F8")
+        change(page, server, project, "Task Configuration", **before)

@@ -18,7 +18,7 @@ from tappet.codegen.symbol_types import Bit
 from tappet.iec.heap import DEFAULT_HEAP
 from tappet.iec.memory import DEFAULT_RESERVE, MAX_IMAGE
 from tappet.iec.places import SourceMap
-from tappet.iec.task import Watchdog
+from tappet.iec.task import TaskKind, TaskPolicy, Watchdog
 
 MAGIC = b"TAPPET-PKG"
 VERSION = 3
@@ -36,7 +36,6 @@ COPY_EXIT_PREFIX = "tappet.copy_exit."
 bInCopyCode TRUE; call it before an online change moves or removes the object (LDEC-105, LDEC-106)."""
 
 
-TaskKind = Literal["cyclic", "freewheeling", "event", "status"]
 Natural = Annotated[int, Meta(ge=0)]
 
 
@@ -54,7 +53,7 @@ class TaskSpec(Struct, frozen=True):
     priority: Annotated[int, Meta(ge=0, le=31)] = 1
     """0 (highest) to 31."""
     event: str | None = None
-    """Path of the BOOL variable of an event or status task."""
+    """Path of the BOOL variable of an event or status task, name of the event of an external one."""
     event_offset: Natural | None = None
     """Place of that variable in the image, filled by the build."""
     event_bit: Bit | None = None
@@ -62,6 +61,10 @@ class TaskSpec(Struct, frozen=True):
     watchdog: Watchdog | None = None
     programs: tuple[str, ...] = ()
     """Programs in calling order."""
+    processors: tuple[Natural, ...] = ()
+    """Processors that it may run on; none: as the runtime does by itself."""
+    policy: TaskPolicy = "fifo"
+    """How the operating system runs it."""
     symbol: str = ""
     """Exported function that runs one cycle of the programs, filled by the build."""
 

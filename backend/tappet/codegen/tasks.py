@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from tappet.codegen.package import TaskKind, TaskSpec
+from tappet.codegen.package import TaskSpec
 from tappet.codegen.symbol_map import SymbolError, SymbolMap
+from tappet.iec.system_events import external_event
 from tappet.iec.task import Task
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.diagnostics import Diagnostic, report
@@ -16,23 +17,20 @@ from tappet.lang.source import NOWHERE, Scope, Source
 DEFAULT_INTERVAL_NS = 10_000_000
 """Cycle of the one task of an application without configuration."""
 
-_KINDS: dict[str, TaskKind] = {
-    "cyclic": "cyclic", "freewheeling": "freewheeling", "event": "event", "status": "status",
-    "external": "event",
-}  # fmt: skip
-
 
 def task_specs(tasks: Sequence[Task]) -> list[TaskSpec]:
     """What the package says about tasks that `check_tasks` finds no error in."""
     return [
         TaskSpec(
             task.name,
-            _KINDS[task.kind],
+            task.kind,
             task.interval_ns if task.kind == "cyclic" else 0,
             task.priority,
-            task.event,
+            external_event(task.event) if task.kind == "external" and task.event else task.event,
             watchdog=task.watchdog,
             programs=tuple(task.programs),
+            processors=tuple(task.processors),
+            policy=task.policy,
         )
         for task in tasks
     ]
@@ -52,7 +50,7 @@ def default_tasks(analysis: Analysis, sources: Sequence[Source], main_program: s
 
 def event_place(spec: TaskSpec, symbols: SymbolMap, found: list[Diagnostic]) -> TaskSpec:
     """The specification with the place of its event variable; what is wrong with it is added to `found`."""
-    if not spec.event:
+    if not spec.event or spec.kind == "external":
         return spec
     try:
         ref = symbols.resolve(spec.event)

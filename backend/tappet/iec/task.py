@@ -10,6 +10,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 TaskKind = Literal["cyclic", "freewheeling", "event", "status", "external"]
+TaskPolicy = Literal["fifo", "round_robin", "normal"]
+"""How the operating system runs the tasks of a group: at real-time priority until they wait, at real-time
+priority taking turns with those of the same priority, or like any other program."""
+
+
+MOST_TASKS = 64
+"""Tasks of an application."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,5 +44,11 @@ class Task:
     watchdog: Watchdog | None = None
     programs: tuple[str, ...] = ()
     """Programs in calling order."""
+    group: str = ""
+    """Name of the task group; "" for none."""
+    processors: tuple[int, ...] = ()
+    """Processors that the tasks of its group may run on; none: as the runtime does by itself."""
+    policy: TaskPolicy = "fifo"
+    """Of the group."""
     object_id: str | None = None
     """The task object of the project; None for one that stands in where none is configured."""

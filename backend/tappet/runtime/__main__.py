@@ -10,8 +10,10 @@ import secrets
 import signal
 import sys
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
+from tappet.iec.system_events import EXTERNAL_EVENTS
 from tappet.runtime.contexts import STUCK_LIMIT_S
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.logbook import Logbook, LogEntry
@@ -89,6 +91,11 @@ def _scheduling(arguments: argparse.Namespace, log: Logbook) -> Scheduling:
     return scheduling or NORMAL
 
 
+def _raise_event(loop: asyncio.AbstractEventLoop, plc: SoftPlc, name: str) -> None:
+    """A signal is a system event; what hangs on it runs on a thread."""
+    loop.run_in_executor(None, plc.happen, name)
+
+
 async def serve(arguments: argparse.Namespace) -> None:
     """Run until SIGTERM or SIGINT, or the process at the lifeline is gone; then stop the application and save
     its remanent values."""
@@ -115,6 +122,9 @@ async def serve(arguments: argparse.Namespace) -> None:
     loop = asyncio.get_running_loop()
     for number in (signal.SIGTERM, signal.SIGINT):
         loop.add_signal_handler(number, ended.set)
+    for name in EXTERNAL_EVENTS:
+        if name.startswith("SIG"):
+            loop.add_signal_handler(signal.Signals[name], partial(_raise_event, loop, plc, name))
     if arguments.lifeline_fd is not None:
         loop.add_reader(arguments.lifeline_fd, ended.set)  # nothing comes but its end
     await ended.wait()

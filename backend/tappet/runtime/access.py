@@ -15,9 +15,11 @@ from tappet.runtime.flight import FlightRecorder, FlightStatus
 from tappet.runtime.flight_recording import FlightRecording
 from tappet.runtime.flight_save import take_recording
 from tappet.runtime.forces import Force, PlacedValue
+from tappet.runtime.logbook import Logbook
 from tappet.runtime.places import path_at
 from tappet.runtime.recorder import Recorder, RecorderSpec
 from tappet.runtime.sampled import TraceSpec, TraceStatus
+from tappet.runtime.source_archive import SourceInfo, SourceNote, SourceStore
 from tappet.runtime.task_group import TaskError
 from tappet.runtime.tasks import TaskHistogram, TaskStatistics
 from tappet.runtime.trace_record import Command, TraceFrames
@@ -29,6 +31,10 @@ _MOMENT_S = 0.002
 
 class ApplicationAccess:
     """Serialised access to the application, if there is one. All methods may be called from any thread."""
+
+    log: Logbook
+    source: SourceStore
+    """The life cycle makes them."""
 
     def __init__(self) -> None:
         self.application: LoadedApplication | None = None
@@ -272,3 +278,20 @@ class ApplicationAccess:
                     monitoring.reset_statistics(application, number)
             else:
                 monitoring.reset_statistics(application, application.ownership.number(task))
+
+    # -- source ------------------------------------------------------------------------------------------
+
+    def keep_source(self, note: SourceNote, data: bytes) -> None:
+        """Keep the archive of a project. Raises DiskFullError, PlcError."""
+        self.source.put(note, data)
+        self.log.add("info", "source", f"{note.stored_by} stored the source of '{note.project}'")
+
+    def source_info(self) -> SourceInfo | None:
+        """The source that is kept; None for none."""
+        application = self.application
+        return self.source.info(application.package.code_id if application is not None else None)
+
+    def remove_source(self) -> None:
+        """Delete the source."""
+        self.source.remove()
+        self.log.add("info", "source", "the source was deleted")

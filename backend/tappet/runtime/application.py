@@ -84,6 +84,8 @@ class LoadedApplication(ApplicationCode):
         self.forces = ForceTable()
         self.sampled = Sampled(self)
         self.recorders = self.sampled.recorders
+        self.called = ""
+        """What was called last beside the tasks."""
         self.watched = WatchedProperties(self.image)
         self.watched.load(package)
         self.retain_file: RetainFile | None = None
@@ -149,6 +151,7 @@ class LoadedApplication(ApplicationCode):
             task["started"] = 0
             task["eventLast"] = 0
             task["pending"] = 0
+            task["raisedLast"] = task["raised"]
             task["programCycles"] = 0
             self.contexts.watchdog(task)["overruns"] = 0
             self.contexts.clear_statistics(task)
@@ -163,7 +166,7 @@ class LoadedApplication(ApplicationCode):
                 task["due"] = 0
         else:
             self.contexts.application["startNs"] = time.clock_gettime_ns(time.CLOCK_MONOTONIC)
-        fault = self.tasks.call(self.code[INIT_SYMBOL])
+        fault = self.call_beside("initialisation", self.code[INIT_SYMBOL])
         for offset, data in saved:
             self.image.write(offset, data)
         self._restore(kept)
@@ -193,6 +196,11 @@ class LoadedApplication(ApplicationCode):
         for offset, data in declared:
             self.image.write(offset, data)
 
+    def call_beside(self, what: str, code: int) -> RawFault | None:
+        """Call code that belongs to no task; an exception in it is told with `what`."""
+        self.called = what
+        return self.tasks.call(code)
+
     def mark_faulted(self) -> None:
         """State FAULTED because of code that belongs to no task."""
         self.contexts.application["pFaulted"] = self.contexts.service.address
@@ -202,7 +210,7 @@ class LoadedApplication(ApplicationCode):
         """FB_Exit of all instances (LDEC-105); only while no task runs."""
         if EXIT_SYMBOL not in self.package.exports:
             return None
-        return self.tasks.call(self.code[EXIT_SYMBOL])
+        return self.call_beside("FB_Exit", self.code[EXIT_SYMBOL])
 
     # -- remanence ---------------------------------------------------------------------------------------
 

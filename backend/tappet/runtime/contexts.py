@@ -11,7 +11,7 @@ from tappet.runtime.executive.loader import Executive
 from tappet.runtime.executive.records import Arena, Block, Record
 from tappet.runtime.faults import RawFault
 from tappet.runtime.posix import WATCHDOG_SIGNAL, libc, read_memory, write_memory
-from tappet.runtime.tasks import KINDS, watchdog_threshold
+from tappet.runtime.tasks import EVENT_DRIVEN, KINDS, watchdog_threshold
 from tappet.runtime.threads import TaskStack
 
 STOPPED, RUNNING, FAULTED = 0, 1, 2
@@ -83,7 +83,7 @@ class Contexts:
         application["taskCount"] = count
         application["pTasks"] = first
         application["watchdogSignal"] = WATCHDOG_SIGNAL
-        watched = any(t.watchdog or t.kind in ("event", "status") for t in self.tasks_specs)
+        watched = any(t.watchdog or t.kind in EVENT_DRIVEN for t in self.tasks_specs)
         application["scanInterval"] = SCAN_NS if watched or virtual else IDLE_SCAN_NS
 
     def identify(self, package: CodePackage) -> None:

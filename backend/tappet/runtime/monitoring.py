@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tappet.runtime.tasks import TaskHistogram, TaskStatistics, read_histogram, read_statistics
+from tappet.runtime.tasks import EVENT_DRIVEN, TaskHistogram, TaskStatistics, read_histogram, read_statistics
 
 if TYPE_CHECKING:
     from tappet.runtime.application import LoadedApplication
@@ -29,7 +29,7 @@ def statistics(application: LoadedApplication) -> list[TaskStatistics]:
     rows = []
     for i, (spec, task) in enumerate(zip(application.package.tasks, contexts.tasks, strict=True)):
         status = "valid" if task["started"] else "created"
-        if spec.kind in ("event", "status") and not task["started"]:
+        if spec.kind in EVENT_DRIVEN and not task["started"]:
             status = "not created"
         if faulted == i:
             status = "exception"

@@ -49,11 +49,11 @@ def check_change(running: CodePackage, package: CodePackage) -> None:
         raise OnlineChangeError(
             "the package was built against another application than the running one; build again or download"
         )
-    before = [(t.name, t.kind, t.priority) for t in running.tasks]
-    after = [(t.name, t.kind, t.priority) for t in package.tasks]
+    before = [(t.name, t.kind, t.priority, t.processors, t.policy) for t in running.tasks]
+    after = [(t.name, t.kind, t.priority, t.processors, t.policy) for t in package.tasks]
     if before != after:
         raise OnlineChangeError(
-            "tasks were added, removed or changed in kind or priority; download the application"
+            "tasks were added, removed or changed in kind, priority or task group; download the application"
         )
     for name in ("tappet.area.I", "tappet.area.Q"):
         old, new = running.data_objects.get(name), package.data_objects.get(name)
@@ -97,9 +97,9 @@ def apply_change(
         # what FB_Exit does with other objects is to be seen in what they keep
         report = None
         for function in left_behind(running, package):
-            fault = application.tasks.call(old_code[function])
+            fault = application.call_beside(DURING, old_code[function])
             if fault is not None and report is None:  # its place is known as long as its code is there
-                report = build_report(application, log, DURING)
+                report = build_report(application, log)
         _end_traces(application, log)
         _rearrange(application, package)
         application.outside.clear()
@@ -117,9 +117,9 @@ def apply_change(
             except OSError as error:
                 problem = str(error)
         if ONLINE_CHANGE_SYMBOL in package.exports:
-            fault = application.tasks.call(code[ONLINE_CHANGE_SYMBOL])
+            fault = application.call_beside(DURING, code[ONLINE_CHANGE_SYMBOL])
             if fault is not None and report is None:
-                report = build_report(application, log, DURING)
+                report = build_report(application, log)
         application.files.sweep()
         if report is not None:
             application.mark_faulted()

@@ -15,6 +15,7 @@ from typing import get_args
 from tappet import __version__
 from tappet.codegen.package import CodePackage, PackageError
 from tappet.disk_full import is_disk_full
+from tappet.iec.task import MOST_TASKS
 from tappet.runtime.access import ApplicationAccess
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.boot import (
@@ -37,17 +38,16 @@ from tappet.runtime.link import LinkError
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.online_change import OnlineChangeError, apply_change
 from tappet.runtime.reports import build_report
-from tappet.runtime.retain import Kept, load_retain, matching, persistent_of, remove_retain
+from tappet.runtime.retain import Kept, load_retain, note_lost, persistent_of, remove_retain
 from tappet.runtime.retain_groups import check_room
-from tappet.runtime.source_archive import SourceInfo, SourceNote, SourceStore
+from tappet.runtime.source_archive import SourceStore
 from tappet.runtime.standstill import stop_axes
 from tappet.runtime.state import Event, ResetKind, RuntimeInfo, State
+from tappet.runtime.system_events import happened
 from tappet.runtime.task_group import TaskError
 from tappet.runtime.threads import NORMAL, Scheduling
 
 _STATES: dict[int, State] = {STOPPED: "stop", RUNNING: "run", FAULTED: "exception"}
-MOST_TASKS = 64
-"""Tasks of an application."""
 
 
 class SoftPlc(ApplicationAccess):
@@ -146,10 +146,17 @@ class SoftPlc(ApplicationAccess):
             if state == "exception" and self._report is None:
                 report = self._report = build_report(self._need(), self.log)
                 self.log.add("exception", "application", summary(report))
+                self.happen("Exception")
             if state != self._seen_state:
                 entered = state == "exception"
                 self._seen_state = state
                 self._notify("exception" if entered else "state")
+
+    def happen(self, event: str, *, when: bool = True) -> None:
+        """A system event that concerns the loaded application, if there is one."""
+        with self._lock:
+            if when and self.application is not None:
+                happened(self.application, event, self.log)
 
     def _notify(self, kind: str) -> None:
         self._seen_state = self.state
@@ -169,9 +176,10 @@ class SoftPlc(ApplicationAccess):
                 raise PlcError(
                     "the application is in the state exception; reset it (warm or cold) before starting"
                 )
-            if application.tasks.state != RUNNING:
+            if application.tasks.state != RUNNING and happened(application, "PrepareStart", self.log):
                 application.run()
                 self.log.add("info", "application", f"{application.package.application} started")
+                happened(application, "StartDone", self.log)
                 self._notify("state")
 
     def single_cycle(self) -> None:
@@ -203,6 +211,7 @@ class SoftPlc(ApplicationAccess):
     def stop(self) -> None:
         """Complete the running cycles, then call no program; values stay. Axes come to standstill before."""
         was_running = self.state == "run"
+        self.happen("PrepareStop", when=was_running)
         self._stop_axes()
         with self._lock:
             application = self._need()
@@ -211,6 +220,7 @@ class SoftPlc(ApplicationAccess):
             self._mark.settle()
             if was_running:
                 self.log.add("info", "application", f"{application.package.application} stopped")
+                happened(application, "StopDone", self.log)
                 self._notify("state")
 
     def _stop_axes(self) -> None:
@@ -226,6 +236,7 @@ class SoftPlc(ApplicationAccess):
         """
         if kind not in get_args(ResetKind):
             raise PlcError(f"unknown reset '{kind}'; known are warm, cold and origin")
+        self.happen("PrepareReset")
         self._stop_axes()
         with self._lock:
             application = self._need()
@@ -241,6 +252,7 @@ class SoftPlc(ApplicationAccess):
                 if self._crash is not None:
                     self._begin(application)
                 fault = application.initialise(kept, keep_no_init=True)
+            self.happen("ResetDone", when=fault is None)
             self._save_retain()
             self.log.add("info", "application", f"{application.package.application} reset {kind}")
             self._after_initialise(fault)
@@ -260,23 +272,6 @@ class SoftPlc(ApplicationAccess):
         if fault is not None:
             self.poll()
         self._notify("exception" if self.state == "exception" else "state")
-
-    # -- source ------------------------------------------------------------------------------------------
-
-    def keep_source(self, note: SourceNote, data: bytes) -> None:
-        """Keep the archive of a project. Raises DiskFullError, PlcError."""
-        self.source.put(note, data)
-        self.log.add("info", "source", f"{note.stored_by} stored the source of '{note.project}'")
-
-    def source_info(self) -> SourceInfo | None:
-        """The source that is kept; None for none."""
-        application = self.application
-        return self.source.info(application.package.code_id if application is not None else None)
-
-    def remove_source(self) -> None:
-        """Delete the source."""
-        self.source.remove()
-        self.log.add("info", "source", "the source was deleted")
 
     # -- download ----------------------------------------------------------------------------------------
 
@@ -360,6 +355,7 @@ class SoftPlc(ApplicationAccess):
             application.close()
             raise
         old = self.application
+        self.happen("PrepareDownload")
         if kept is None:
             kept = persistent_of(old, package, self.folder)
         if old is not None:
@@ -375,12 +371,7 @@ class SoftPlc(ApplicationAccess):
             application.hold(kept)
             self._crash, self._report = crash, crash.report(application, self.log)
             self.log.add("exception", "application", summary(self._report))
-        lost = [path for path in matching(kept, application.remanent())[1] if kept[path].persistent]
-        if lost:
-            names = ", ".join(lost[:5]) + (" ..." if len(lost) > 5 else "")
-            self.log.add(
-                "warning", "retain", f"persistent variables without a place in the application: {names}"
-            )
+        note_lost(kept, application.remanent(), self.log)
         if self.folder is not None:
             try:
                 application.open_retain_file(self.folder)
@@ -393,11 +384,14 @@ class SoftPlc(ApplicationAccess):
             self.log.add("warning", "image", note)
         note_flight(application, self.flight, self.log)
         self.log.add("info", "application", f"{package.application} loaded ({package.code_id[:12]})")
+        self.happen("DownloadDone", when=fault is None and crash is None)
         if fault is not None:
             self.poll()
 
     def _unload(self, application: LoadedApplication, *, leave: bool) -> None:
         """End an application; with `leave` its FB_Exit methods are called."""
+        if leave:
+            happened(application, "PrepareExit", self.log)
         self._stop_axes()
         application.tasks.stop()
         application.log.collect(self.log)
@@ -405,7 +399,7 @@ class SoftPlc(ApplicationAccess):
             with application.tasks.standing():
                 fault = application.run_exit()
             if fault is not None:
-                report = build_report(application, self.log, "FB_Exit")
+                report = build_report(application, self.log)
                 self.log.add("error", "application", f"ended by an exception: {summary(report)}")
         self.application = None
         self._report = None
@@ -417,6 +411,7 @@ class SoftPlc(ApplicationAccess):
         if self._crash is not None:
             raise PlcError("online change refused: the application waits to be started; download the new one")
         check_room(self.folder, package)
+        self.happen("PrepareOnlineChange")
         begun = time.monotonic()
         try:
             result = apply_change(application, package, self.folder, self.log)
@@ -439,6 +434,7 @@ class SoftPlc(ApplicationAccess):
             self._report = result.report
             self.log.add("exception", "application", summary(result.report))
             self.poll()
+        self.happen("OnlineChangeDone", when=result.report is None)
 
     def boot(self) -> bool:
         """Load and start the boot application with its remanent values; False when there is none or it

@@ -24,6 +24,7 @@ _MAP_FAILED = (1 << 64) - 1
 _HINT_STEP = 16 << 20
 
 SCHED_FIFO = 1
+SCHED_RR = 2
 WATCHDOG_SIGNAL = 42
 """A real-time signal that nobody else uses; it makes a task thread look at its watchdog."""
 FAULT_SIGNALS = (4, 7, 8, 11)  # SIGILL, SIGBUS, SIGFPE, SIGSEGV
@@ -210,6 +211,8 @@ class ThreadOptions:
     name: str
     fifo: int | None = None
     cpus: frozenset[int] | None = None
+    round_robin: bool = False
+    """SCHED_RR instead of SCHED_FIFO."""
 
 
 def create_thread(entry: int, argument: int, stack: Mapping, guard: int, options: ThreadOptions) -> int:
@@ -223,7 +226,7 @@ def create_thread(entry: int, argument: int, stack: Mapping, guard: int, options
         libc.pthread_attr_setstack(attributes, stack.address + guard, stack.size - guard)
         if options.fifo is not None:
             libc.pthread_attr_setinheritsched(attributes, 1)
-            libc.pthread_attr_setschedpolicy(attributes, SCHED_FIFO)
+            libc.pthread_attr_setschedpolicy(attributes, SCHED_RR if options.round_robin else SCHED_FIFO)
             libc.pthread_attr_setschedparam(attributes, ctypes.byref(c_int(options.fifo)))
         if options.cpus is not None:
             words = (c_uint64 * 16)()

@@ -17,14 +17,12 @@ _MOST_VALUES = 200
 """Variables listed in a report."""
 
 
-def build_report(
-    application: LoadedApplication, log: Logbook, during: str = "initialisation"
-) -> ExceptionReport:
-    """Report on the fault that ended the application; `during` names what ran when it was no task."""
+def build_report(application: LoadedApplication, log: Logbook) -> ExceptionReport:
+    """Report on the fault that ended the application, or what was called beside its tasks."""
     number = application.contexts.faulted_task()
     is_task = number is not None and number >= 0
     task = application.contexts.tasks[number] if is_task else application.contexts.service  # type: ignore[index]
-    name = application.package.tasks[number].name if is_task else during  # type: ignore[index]
+    name = application.package.tasks[number].name if is_task else application.called  # type: ignore[index]
     raw = application.contexts.fault(task)
     message, values = describe(raw)
     stack = stack_of(application, raw, log)

@@ -21,6 +21,7 @@ import msgpack
 
 from tappet.codegen.package import CodePackage, RemanentRange
 from tappet.runtime.executive.records import Block, Record
+from tappet.runtime.logbook import Logbook
 from tappet.runtime.posix import Mapping, map_memory, read_memory, write_memory
 from tappet.whole_file import PRIVATE, replace_file, sync_folder
 
@@ -301,6 +302,14 @@ def matching(
             restored.append((r.variable, value.data))
             used.add(key)
     return restored, [path for path in kept if path not in used]
+
+
+def note_lost(kept: MappingType[str, KeptValue], variables: Sequence[Remanent], log: Logbook) -> None:
+    """Persistent values that found no place in the application."""
+    lost = [path for path in matching(kept, variables)[1] if kept[path].persistent]
+    if lost:
+        names = ", ".join(lost[:5]) + (" ..." if len(lost) > 5 else "")
+        log.add("warning", "retain", f"persistent variables without a place in the application: {names}")
 
 
 def persistent_of(old: LoadedApplication | None, package: CodePackage, folder: Path | None) -> Kept:

@@ -48,9 +48,8 @@ class TaskGroup:
         for task in contexts.tasks:
             task["due"] = start
         for spec, task, stack in zip(specs, contexts.tasks, contexts.stacks, strict=True):
-            options = self.scheduling.task_options(
-                spec.name, spec.priority, freewheeling=spec.kind == "freewheeling"
-            )
+            options = self.scheduling.options_of(spec)
+            notes += self.scheduling.shortage(spec)
             self._threads.append(NativeThread(entries["tappet_task_thread"], task.address, stack, options))
             if self.scheduling.realtime and spec.kind == "freewheeling":
                 notes.append(f"task {spec.name} is freewheeling and runs at normal priority")

@@ -10,8 +10,10 @@ from tappet.codegen.package import CodePackage, TaskSpec
 from tappet.runtime.executive.records import Record
 from tappet.runtime.posix import read_memory
 
-KINDS = {"cyclic": 0, "freewheeling": 1, "event": 2, "status": 3}
+KINDS = {"cyclic": 0, "freewheeling": 1, "event": 2, "status": 3, "external": 4}
 """TASK_KIND of types.st."""
+EVENT_DRIVEN = ("event", "status", "external")
+"""Kinds that the scheduler starts."""
 LATENESS_STEP_NS = 2048
 """Width of a class of the lateness histogram."""
 
@@ -33,7 +35,7 @@ def bus_task(tasks: list[TaskSpec]) -> int | None:
     cyclic = [(t.interval_ns, t.priority, i) for i, t in enumerate(tasks) if t.kind == "cyclic"]
     if cyclic:
         return min(cyclic)[2]
-    for wanted in ("freewheeling", "status", "event"):
+    for wanted in ("freewheeling", "status", "event", "external"):
         for i, task in enumerate(tasks):
             if task.kind == wanted:
                 return i

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from tappet.codegen.package import TaskSpec
 from tappet.iec.memory import STACK_SIZE
 from tappet.runtime.executive.records import Record
 from tappet.runtime.posix import (
@@ -73,9 +74,43 @@ class Scheduling:
             return ThreadOptions(name)
         return ThreadOptions(name, 80 - priority, self.cpus)
 
+    def options_of(self, spec: TaskSpec) -> ThreadOptions:
+        """The same, with what the task group says: its processors, as far as they are there, and policy."""
+        options = self.task_options(spec.name, spec.priority, freewheeling=spec.kind == "freewheeling")
+        there = available_processors() & set(spec.processors)
+        if spec.policy == "normal":
+            options = ThreadOptions(options.name)
+        return replace(
+            options,
+            cpus=frozenset(there) if there else options.cpus,
+            round_robin=options.fifo is not None and spec.policy == "round_robin",
+        )
+
+    def shortage(self, spec: TaskSpec) -> list[str]:
+        """What the log has to say where the host has fewer processors than the group of a task names."""
+        there = available_processors()
+        lacking = sorted(set(spec.processors) - there)
+        if not lacking:
+            return []
+        kept = sorted(set(spec.processors) & there)
+        instead = f"processor {_listed(kept)}" if kept else "the processors that tasks without group run on"
+        return [
+            f"task {spec.name} runs on {instead}: its task group names processor {_listed(lacking)}, "
+            f"and this host has {_listed(sorted(there))}"
+        ]
+
     def scheduler_options(self) -> ThreadOptions:
         """The thread of events and watchdogs stands above all tasks."""
         return ThreadOptions("scheduler", 81 if self.realtime else None)
+
+
+def available_processors() -> set[int]:
+    """Processors of the host that this process may use."""
+    return os.sched_getaffinity(0)
+
+
+def _listed(numbers: list[int]) -> str:
+    return ", ".join(str(number) for number in numbers)
 
 
 NORMAL = Scheduling(False)

@@ -30,6 +30,9 @@ export type PlacementRule = Schemas['PlacementRule'];
 
 export type TaskData = Schemas['TaskData'];
 export type TaskPou = Schemas['ProgramCall'];
+export type TaskConfigurationData = Schemas['TaskConfigurationData'];
+export type TaskGroup = Schemas['TaskGroup'];
+export type SystemEventCall = Schemas['SystemEventCall'];
 export type LibraryParameter = Schemas['LibraryParameterData'];
 export type LibraryReference = Schemas['LibraryReferenceData'];
 export type StaticAnalysisData = Schemas['StaticAnalysisData'];

@@ -132,16 +132,19 @@ interface CheckboxProps {
   checked: boolean;
   onChecked: (checked: boolean) => void;
   disabled?: boolean;
-  children: ReactNode;
+  /** Its name where none stands beside it, in a column of a table. */
+  label?: string;
+  children?: ReactNode;
 }
 
-export function Checkbox({ checked, onChecked, disabled, children }: CheckboxProps) {
+export function Checkbox({ checked, onChecked, disabled, label, children }: CheckboxProps) {
   const id = useId();
   return (
     <div className={styles.check}>
       <RadixCheckbox.Root
         id={id}
         className={styles.box}
+        aria-label={label}
         checked={checked}
         disabled={disabled}
         onCheckedChange={(state) => onChecked(state === true)}
@@ -150,7 +153,7 @@ export function Checkbox({ checked, onChecked, disabled, children }: CheckboxPro
           <Check size={12} strokeWidth={3} />
         </RadixCheckbox.Indicator>
       </RadixCheckbox.Root>
-      <label htmlFor={id}>{children}</label>
+      {children !== undefined && <label htmlFor={id}>{children}</label>}
     </div>
   );
 }

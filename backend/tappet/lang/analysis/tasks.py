@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tappet.iec.task import Task
+from tappet.iec.system_events import EXTERNAL_EVENTS, external_event
+from tappet.iec.task import MOST_TASKS, Task
 from tappet.lang import types as t
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.expressions import evaluate
@@ -32,6 +33,8 @@ def check_tasks(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
         if main.upper() not in analysis.programs:
             found.append(report("E0219", "", NOWHERE, name=main))
         return found
+    if len(tasks) > MOST_TASKS:
+        found.append(report("E0712", "", NOWHERE, count=len(tasks), most=MOST_TASKS))
     names: set[str] = set()
     for task in tasks:
         key = task.name.upper()
@@ -65,7 +68,10 @@ def _check(task: Task, analysis: Analysis) -> list[Diagnostic]:
     if watchdog is not None and (watchdog.time_ns <= 0 or watchdog.sensitivity < 0):
         say("E0710")
     if task.kind in _EVENT_KINDS:
-        if task.event:
+        if task.kind == "external" and task.event:
+            if external_event(task.event) is None:
+                say("E0711", event=task.event, events=", ".join(EXTERNAL_EVENTS))
+        elif task.event:
             found += _check_event(task, task.event, analysis)
         else:
             say("E0707")

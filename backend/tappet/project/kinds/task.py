@@ -35,6 +35,12 @@ class WatchdogData(Data):
 
     enabled: StrictBool = False
     time: Duration = Field(default="T#100ms", description="Longest allowed duration of a cycle.")
+    percent: StrictInt | None = Field(
+        default=None,
+        ge=1,
+        le=1_000_000,
+        description="Percent of the interval instead of the time; cyclic tasks.",
+    )
     sensitivity: StrictInt = Field(
         default=1, ge=0, le=1_000_000, description="Number of overruns that are one too many."
     )
@@ -52,6 +58,7 @@ class TaskData(Data):
     )
     event: Line = Field(default="", description="Path of the BOOL variable, or the system event (TASK-18).")
     watchdog: WatchdogData = WatchdogData()
+    group: Line = Field(default="", description="Task group of the task configuration; empty for none.")
     pous: tuple[ProgramCall, ...] = ()
 
     @model_validator(mode="after")
@@ -66,7 +73,9 @@ def _task(task: ProjectObject) -> Task:
     data = task.data_as(TaskData)
     watchdog = None
     if data.watchdog.enabled:
-        watchdog = Watchdog(duration_ns(data.watchdog.time), data.watchdog.sensitivity)
+        percent = data.watchdog.percent if data.type == "cyclic" else None
+        longest = duration_ns(data.watchdog.time if percent is None else data.interval)
+        watchdog = Watchdog(longest * (percent or 100) // 100, data.watchdog.sensitivity)
     return Task(
         name=task.name,
         kind=data.type,
@@ -75,6 +84,7 @@ def _task(task: ProjectObject) -> Task:
         event=data.event or None if data.type in ("event", "status", "external") else None,
         watchdog=watchdog,
         programs=tuple(call.name for call in data.pous),
+        group=data.group,
         object_id=task.id,
     )
 

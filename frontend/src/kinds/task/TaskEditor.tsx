@@ -8,9 +8,11 @@ import { Checkbox, Field, Select, TextInput } from '@/ui/Field';
 import { FormPage, Section } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
 import { useDraft } from '@/editors/form/useDraft';
-import { callablePrograms, canStore, taskFaults } from './model';
+import { EventField } from './EventField';
+import { callablePrograms, canStore, EXTERNAL_EVENTS, externalEvent, NO_GROUP, sameName, taskFaults } from './model';
 import { ProgramList } from './ProgramList';
 import { TimeField } from './TimeField';
+import { useGroups } from './useGroups';
 
 const TYPES: readonly TaskData['type'][] = ['cyclic', 'freewheeling', 'event', 'status', 'external'];
 const TaskIcon = objectIcon('task');
@@ -21,6 +23,7 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
   const draft = useDraft(panelId, projectId, objectId, ofKind('task'), canStore);
   const { data: objects } = useObjects(projectId);
   const disabled = draft.readOnly !== null;
+  const groups = useGroups(projectId, draft.object?.parent_id ?? null);
   return (
     <FormPage draft={draft}>
       {(task) => {
@@ -71,16 +74,50 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
                     onValue={(interval) => change({ interval })}
                   />
                 )}
-                {(task.type === 'event' || task.type === 'status' || task.type === 'external') && (
-                  <Field row label={t('task.event')} error={fault('event')}>
+                {(task.type === 'event' || task.type === 'status') && (
+                  <EventField
+                    projectId={projectId}
+                    object={draft.object}
+                    value={task.event}
+                    error={fault('event')}
+                    disabled={disabled}
+                    onValue={(event) => change({ event })}
+                  />
+                )}
+                {task.type === 'external' && (
+                  <Field row label={t('task.event')} hint={externalHint(task.event, t)} error={fault('event')}>
                     {(attributes) => (
-                      <TextInput
+                      <Select
                         {...attributes}
-                        className="code"
                         disabled={disabled}
-                        value={task.event}
-                        placeholder={t('task.eventExample')}
+                        value={externalEvent(task.event)}
+                        choices={EXTERNAL_EVENTS.map((value) => ({ value, text: value }))}
                         onValue={(event) => change({ event })}
+                      />
+                    )}
+                  </Field>
+                )}
+                {(groups.length > 0 || task.group !== '') && (
+                  <Field
+                    row
+                    label={t('task.group')}
+                    hint={t('task.groupHint')}
+                    error={
+                      task.group === '' || groups.some((one) => sameName(one, task.group))
+                        ? null
+                        : t('task.groupFault', { name: task.group })
+                    }
+                  >
+                    {(attributes) => (
+                      <Select
+                        {...attributes}
+                        disabled={disabled}
+                        value={groups.find((one) => sameName(one, task.group)) ?? (task.group === '' ? NO_GROUP : null)}
+                        choices={[
+                          { value: NO_GROUP, text: t('task.noGroup') },
+                          ...groups.map((value) => ({ value, text: value })),
+                        ]}
+                        onValue={(group) => change({ group: group === NO_GROUP ? '' : group })}
                       />
                     )}
                   </Field>
@@ -98,13 +135,38 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
                 </Checkbox>
                 {task.watchdog.enabled && (
                   <>
-                    <TimeField
-                      label={t('task.watchdogTime')}
-                      value={task.watchdog.time}
-                      error={fault('watchdogTime')}
-                      disabled={disabled}
-                      onValue={(time) => watchdog({ time })}
-                    />
+                    {task.type === 'cyclic' && (
+                      <Checkbox
+                        checked={task.watchdog.percent !== null}
+                        disabled={disabled}
+                        onChecked={(relative) => watchdog({ percent: relative ? 100 : null })}
+                      >
+                        {t('task.watchdogRelative')}
+                      </Checkbox>
+                    )}
+                    {task.type === 'cyclic' && task.watchdog.percent !== null ? (
+                      <Field row label={t('task.watchdogPercent')} error={fault('watchdogPercent')}>
+                        {(attributes) => (
+                          <TextInput
+                            {...attributes}
+                            className={styles.narrow}
+                            type="number"
+                            min={1}
+                            disabled={disabled}
+                            value={Number.isNaN(task.watchdog.percent) ? '' : (task.watchdog.percent ?? '')}
+                            onValue={(value) => watchdog({ percent: value === '' ? Number.NaN : Number(value) })}
+                          />
+                        )}
+                      </Field>
+                    ) : (
+                      <TimeField
+                        label={t('task.watchdogTime')}
+                        value={task.watchdog.time}
+                        error={fault('watchdogTime')}
+                        disabled={disabled}
+                        onValue={(time) => watchdog({ time })}
+                      />
+                    )}
                     <Field
                       row
                       label={t('task.sensitivity')}
@@ -140,4 +202,10 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
       }}
     </FormPage>
   );
+}
+
+/** When an external event happens; nothing for one that the controller does not have. */
+function externalHint(event: string, t: ReturnType<typeof useText>): string | undefined {
+  const known = externalEvent(event);
+  return known === null ? undefined : t(`task.external.${known}`);
 }

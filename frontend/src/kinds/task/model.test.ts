@@ -3,6 +3,7 @@ import type { ObjectSummary, TaskData } from '@/api/types';
 import {
   callablePrograms,
   canStore,
+  externalEvent,
   intervalFrom,
   intervalNs,
   movedPou,
@@ -16,7 +17,8 @@ const task = (changes: Partial<TaskData> = {}): TaskData => ({
   type: 'cyclic',
   interval: 't#20ms',
   event: '',
-  watchdog: { enabled: false, time: 't#100ms', sensitivity: 1 },
+  watchdog: { enabled: false, time: 't#100ms', percent: null, sensitivity: 1 },
+  group: '',
   pous: [],
   ...changes,
 });
@@ -51,10 +53,23 @@ describe('settings', () => {
     expect(taskFaults(task({ priority: 1.5 })).priority).toBeDefined();
     expect(taskFaults(task({ interval: '0' })).interval).toBe('task.intervalFault');
     expect(taskFaults(task({ type: 'freewheeling', interval: 'x' }))).toEqual({});
-    expect(taskFaults(task({ watchdog: { enabled: true, time: 't#0ms', sensitivity: -1 } }))).toEqual({
+    expect(taskFaults(task({ watchdog: { enabled: true, time: 't#0ms', percent: null, sensitivity: -1 } }))).toEqual({
       watchdogTime: 'task.timeFault',
       sensitivity: 'task.sensitivityFault',
     });
+  });
+
+  it('may have a watchdog in percent of the interval (TASK-30)', () => {
+    const watchdog = { enabled: true, time: 't#0ms', percent: 150, sensitivity: 1 };
+    expect(taskFaults(task({ watchdog }))).toEqual({});
+    expect(taskFaults(task({ type: 'freewheeling', watchdog })).watchdogTime).toBeDefined();
+    expect(taskFaults(task({ watchdog: { ...watchdog, percent: 0 } })).watchdogPercent).toBeDefined();
+  });
+
+  it('name an event of the controller (TASK-16)', () => {
+    expect(taskFaults(task({ type: 'external', event: 'sigusr1' }))).toEqual({});
+    expect(taskFaults(task({ type: 'external', event: 'GVL.x' })).event).toBe('task.externalFault');
+    expect(externalEvent(' startdone')).toBe('StartDone');
   });
 
   it('may be stored before the event variable is known', () => {

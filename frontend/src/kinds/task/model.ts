@@ -37,7 +37,9 @@ export function intervalNs(interval: string): number | null {
   return /^\d+$/.test(interval.trim()) ? Number(interval) * 1000 : timeLiteral(interval);
 }
 
-export type TaskFaults = Partial<Record<'priority' | 'interval' | 'event' | 'watchdogTime' | 'sensitivity', TextKey>>;
+export type TaskFaults = Partial<
+  Record<'priority' | 'interval' | 'event' | 'watchdogTime' | 'watchdogPercent' | 'sensitivity', TextKey>
+>;
 
 /** What is wrong with the settings, field by field; empty when they can be stored. */
 export function taskFaults(task: TaskData): TaskFaults {
@@ -49,12 +51,13 @@ export function taskFaults(task: TaskData): TaskFaults {
     if (interval === null) faults.interval = 'task.timeFault';
     else if (interval <= 0) faults.interval = 'task.intervalFault';
   }
-  if ((task.type === 'event' || task.type === 'status' || task.type === 'external') && task.event.trim() === '') {
-    faults.event = 'task.eventFault';
-  }
+  if ((task.type === 'event' || task.type === 'status') && task.event.trim() === '') faults.event = 'task.eventFault';
+  if (task.type === 'external' && externalEvent(task.event) === null) faults.event = 'task.externalFault';
   if (task.watchdog.enabled) {
     const time = intervalNs(task.watchdog.time);
-    if (time === null || time <= 0) faults.watchdogTime = 'task.timeFault';
+    if (task.type === 'cyclic' && task.watchdog.percent !== null) {
+      if (!whole(task.watchdog.percent, 1, 1_000_000)) faults.watchdogPercent = 'task.percentFault';
+    } else if (time === null || time <= 0) faults.watchdogTime = 'task.timeFault';
     if (!whole(task.watchdog.sensitivity, 0, 1_000_000)) faults.sensitivity = 'task.sensitivityFault';
   }
   return faults;
@@ -65,6 +68,20 @@ export function canStore(task: TaskData): boolean {
   const { event: _later, ...faults } = taskFaults(task);
   return Object.keys(faults).length === 0;
 }
+
+/** Events of the controller that a task can wait for (TASK-16). */
+export const EXTERNAL_EVENTS = ['StartDone', 'OnlineChangeDone', 'SIGUSR1', 'SIGUSR2'] as const;
+
+/** The external event of this name; null where the controller has none. */
+export function externalEvent(name: string): (typeof EXTERNAL_EVENTS)[number] | null {
+  return EXTERNAL_EVENTS.find((event) => sameName(event, name.trim())) ?? null;
+}
+
+/** Stands for no group: a choice of a list needs a value. */
+export const NO_GROUP = ' ';
+
+/** Whether two names are the same in programs. */
+export const sameName = (a: string, b: string): boolean => a.toUpperCase() === b.toUpperCase();
 
 /** The list with one program moved up (-1) or down (+1); the same list when it is at the end already. */
 export function movedPou(pous: readonly TaskPou[], at: number, by: -1 | 1): TaskPou[] {

@@ -3,7 +3,7 @@ import { useMemo, useState } from 'react';
 import { useQueries } from '@tanstack/react-query';
 import { ofKind, shaped } from '@/api/objects';
 import { objectQuery, useObjects } from '@/api/queries';
-import type { ObjectSummary, ProjectObject, TaskData } from '@/api/types';
+import type { ObjectSummary, ProjectObject, TaskConfigurationData, TaskData } from '@/api/types';
 import { listed, useText } from '@/i18n';
 import { objectIcon } from '@/project/kinds';
 import { useCommandContext } from '@/workbench/useCommandContext';
@@ -20,9 +20,17 @@ import { Table } from '@/ui/Table';
 import type { Column } from '@/ui/table';
 import { Tabs } from '@/ui/Tabs';
 import { Section } from '@/editors/form/FormPage';
+import { useDraft, type Draft } from '@/editors/form/useDraft';
 import styles from '@/editors/form/Form.module.css';
 import { intervalNs } from '../task/model';
+import { canStore } from './events';
+import { GroupsSection } from './GroupsSection';
 import { MonitoringPage } from './MonitoringPage';
+import { SystemEventsPage } from './SystemEventsPage';
+import { useLoad } from './useLoad';
+
+/** The compiler refuses more. */
+const MOST_TASKS = 64;
 
 interface TaskLine {
   object: ObjectSummary;
@@ -32,8 +40,9 @@ interface TaskLine {
 const ConfigurationIcon = objectIcon('task_configuration');
 
 /** The tasks of an application; online also their measured times (tasks.md, sections 1 and 5). */
-export default function TaskConfigurationEditor({ projectId, objectId }: EditorProps) {
+export default function TaskConfigurationEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
+  const draft = useDraft(panelId, projectId, objectId, ofKind('task_configuration'), canStore);
   const { data: objects } = useObjects(projectId);
   const application = objects && applicationOf(objects, objectId);
   const session = useOnline((state) => (application ? state.sessions[application.id] : undefined));
@@ -42,7 +51,27 @@ export default function TaskConfigurationEditor({ projectId, objectId }: EditorP
     {
       id: 'properties',
       title: t('taskConfiguration.properties'),
-      content: <Overview projectId={projectId} objectId={objectId} objects={objects} />,
+      content: (
+        <Overview
+          projectId={projectId}
+          objectId={objectId}
+          objects={objects}
+          draft={draft}
+          runtimeId={session?.runtimeId ?? null}
+        />
+      ),
+    },
+    {
+      id: 'events',
+      title: t('taskConfiguration.systemEvents'),
+      content: (
+        <SystemEventsPage
+          draft={draft}
+          projectId={projectId}
+          objectId={objectId}
+          runtimeId={session?.runtimeId ?? null}
+        />
+      ),
     },
   ];
   if (session)
@@ -58,10 +87,14 @@ function Overview({
   projectId,
   objectId,
   objects,
+  draft,
+  runtimeId,
 }: {
   projectId: string;
   objectId: string;
   objects: readonly ObjectSummary[];
+  draft: Draft<TaskConfigurationData>;
+  runtimeId: string | null;
 }) {
   const t = useText();
   const [selected, setSelected] = useState<string | null>(null);
@@ -79,6 +112,7 @@ function Overview({
     })),
   });
   const lines = tasks.map((object, at): TaskLine => ({ object, task: data[at]?.data }));
+  const { data: load } = useLoad(runtimeId);
   const allowed = mayEdit(useCommandContext());
   const refused = allowed === true ? null : reasonText(allowed);
   const add = () => void runCommand('project.addObject', { kind: 'task', parentId: objectId, view: 'devices' });
@@ -150,13 +184,24 @@ function Overview({
             />
           </div>
         </Section>
+        <GroupsSection
+          draft={draft}
+          tasks={lines.map(({ object, task }) => ({ name: object.name, group: task?.group ?? '' }))}
+          there={load?.processors ?? null}
+        />
         <Section title={t('taskConfiguration.target')}>
           <Facts>
+            <dt>{t('taskConfiguration.most')}</dt>
+            <dd>{t('taskConfiguration.mostText', { count: MOST_TASKS })}</dd>
             <dt>{t('taskConfiguration.priorities')}</dt>
             <dd>{t('taskConfiguration.prioritiesText')}</dd>
             <dt>{t('taskConfiguration.types')}</dt>
             <dd>
-              {listed((['cyclic', 'freewheeling', 'event', 'status'] as const).map((type) => t(`taskType.${type}`)))}
+              {listed(
+                (['cyclic', 'freewheeling', 'event', 'status', 'external'] as const).map((type) =>
+                  t(`taskType.${type}`),
+                ),
+              )}
             </dd>
           </Facts>
         </Section>
