@@ -28,9 +28,7 @@ class ImageMemory:
 class Image:
     """A memory file, mapped shared. Its address stays the same until it is closed."""
 
-    def __init__(
-        self, size: int, reserve: ChangeReserve = DEFAULT_RESERVE, wanted_address: int = 0
-    ) -> None:
+    def __init__(self, size: int, reserve: ChangeReserve = DEFAULT_RESERVE, wanted_address: int = 0) -> None:
         """At `wanted_address` where that is free: a recording is replayed where it was made."""
         if size > MAX_IMAGE:
             raise ImageError(f"image of {size} bytes; at most {MAX_IMAGE} are possible")

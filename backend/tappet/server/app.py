@@ -41,7 +41,7 @@ from tappet.server.online import routes as routes_online
 from tappet.server.personal_settings import routes as routes_settings
 from tappet.server.projects import routes as routes_projects
 from tappet.server.recipes import routes as routes_recipes
-from tappet.server.recordings import routes as routes_recordings
+from tappet.server.recordings import routes as routes_flight_recordings
 from tappet.server.runtimes import operations
 from tappet.server.runtimes import routes as routes_runtimes
 from tappet.server.runtimes.plc_client import Connect
@@ -71,7 +71,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_runtimes.router,
     routes_values.router,
     routes_flight.router,
-    routes_recordings.router,
+    routes_flight_recordings.router,
     routes_online.router,
     routes_build.router,
     routes_source.router,

@@ -836,6 +836,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/applications/{application_id}/recordings": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Save Recording
+         * @description Keep what the flight recorder of a runtime holds now as an object of the application.
+         */
+        post: operations["save_recording"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/applications/{application_id}/recordings/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Upload Recording
+         * @description Keep a `.flight` file as an object of the application.
+         */
+        post: operations["upload_recording"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/applications/{application_id}/source-download": {
         parameters: {
             query?: never;
@@ -1581,6 +1621,28 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/recipes/{definition_id}/variables": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Recipe Variables
+         * @description The elementary variables of the application, members of instances and elements of arrays among them.
+         *
+         *     Builds the application; the problem `build-errors` (409) when that is not possible.
+         */
+        get: operations["list_recipe_variables"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/recipes/{definition_id}/{recipe}/file": {
         parameters: {
             query?: never;
@@ -1599,6 +1661,86 @@ export interface paths {
          */
         put: operations["import_recipe"];
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/recordings/{object_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Recording
+         * @description What a recording holds.
+         */
+        get: operations["read_recording"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/recordings/{object_id}/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Recording
+         * @description A recording as a `.flight` file.
+         */
+        get: operations["download_recording"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/recordings/{object_id}/open": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Open Recording
+         * @description Make a recording a runtime whose values can be looked at, in every cycle that it holds.
+         */
+        post: operations["open_recording"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/recordings/{object_id}/replay": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Replay Recording
+         * @description Run a recording again on virtual time, with the inputs, writes and forces that it had.
+         */
+        post: operations["replay_recording"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1773,6 +1915,178 @@ export interface paths {
          *     the answer is the problem `changed-since`.
          */
         post: operations["undo_step"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recordings": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Recordings
+         * @description Stored recordings, newest first: all, those of a project, or those of a trace.
+         */
+        get: operations["list_recordings"];
+        put?: never;
+        /**
+         * Load Trace
+         * @description Store the samples of a trace file (Load Trace). What is none is the problem `trace-file-invalid`.
+         */
+        post: operations["load_trace"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recordings/{recording_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Recording
+         * @description A recording with the settings of its trace.
+         */
+        get: operations["get_recording"];
+        put?: never;
+        post?: never;
+        /**
+         * Delete Recording
+         * @description Delete a recording with its samples.
+         */
+        delete: operations["delete_recording"];
+        options?: never;
+        head?: never;
+        /**
+         * Change Recording
+         * @description Give a recording another title or comment.
+         */
+        patch: operations["change_recording"];
+        trace?: never;
+    };
+    "/api/v1/recordings/{recording_id}/derived": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Recording Derived
+         * @description The derivative or the integral of a channel.
+         */
+        get: operations["get_recording_derived"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recordings/{recording_id}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Recording
+         * @description A recording as a file: CSV or Parquet of one record, or a trace file (Save Trace).
+         */
+        get: operations["export_recording"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recordings/{recording_id}/samples": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Recording Samples
+         * @description Samples by number.
+         */
+        get: operations["get_recording_samples"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recordings/{recording_id}/spectrum": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Recording Spectrum
+         * @description Amplitudes of the sines that a span consists of.
+         */
+        get: operations["get_recording_spectrum"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recordings/{recording_id}/statistics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Recording Statistics
+         * @description Least, largest and mean values.
+         */
+        get: operations["get_recording_statistics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recordings/{recording_id}/window": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Recording Window
+         * @description Samples of a time, or the least and largest values where they are many.
+         */
+        get: operations["get_recording_window"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -2254,6 +2568,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/flight/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Download Flight
+         * @description What the flight recorder of a runtime holds now, as a `.flight` file.
+         */
+        get: operations["download_flight"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/flight/freeze": {
         parameters: {
             query?: never;
@@ -2640,6 +2974,300 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/traces": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Traces
+         * @description The traces that run in the controller, whoever has downloaded them (Online List).
+         */
+        get: operations["list_traces"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Trace
+         * @description The state of a trace; it is gone after a download or an online change of the application.
+         */
+        get: operations["get_trace"];
+        /**
+         * Download Trace
+         * @description Download a trace, in place of one of its name, and start it (TRC-70).
+         *
+         *     Settings that cannot be are the problem `trace-invalid` with `problems`: record, channel, field, message.
+         */
+        put: operations["download_trace"];
+        post?: never;
+        /**
+         * Remove Trace
+         * @description End a trace; its samples are gone.
+         */
+        delete: operations["remove_trace"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/configuration": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Upload Trace
+         * @description The settings that were downloaded with a trace (Upload Trace).
+         */
+        get: operations["upload_trace"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/derived": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Trace Derived
+         * @description The derivative or the integral of a channel.
+         */
+        get: operations["get_trace_derived"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Trace
+         * @description What a trace holds, as a file: CSV or Parquet of one record, or a trace file (Save Trace).
+         */
+        get: operations["export_trace"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/recording": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Begin Recording
+         * @description Record every sample from now on, until it is ended, `seconds` have passed or the trace ends.
+         */
+        post: operations["begin_recording"];
+        /**
+         * End Recording
+         * @description End the long-term recording of a trace; it stays stored.
+         */
+        delete: operations["end_recording"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/reset-trigger": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Reset Trigger
+         * @description Arm the trigger again.
+         */
+        post: operations["reset_trigger"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/samples": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Trace Samples
+         * @description Samples by number.
+         */
+        get: operations["get_trace_samples"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/snapshot": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Store Trace
+         * @description Store what a trace holds now as a recording.
+         */
+        post: operations["store_trace"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/spectrum": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Trace Spectrum
+         * @description Amplitudes of the sines that a span consists of.
+         */
+        get: operations["get_trace_spectrum"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/start": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Start Trace
+         * @description Record again (TRC-74).
+         */
+        post: operations["start_trace"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/statistics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Trace Statistics
+         * @description Least, largest and mean values.
+         */
+        get: operations["get_trace_statistics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/stop": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Stop Trace
+         * @description Record nothing more; what is recorded stays.
+         */
+        post: operations["stop_trace"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/traces/{name}/window": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Trace Window
+         * @description Samples of a time, or the least and largest values where they are many.
+         */
+        get: operations["get_trace_window"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/values/force": {
         parameters: {
             query?: never;
@@ -2734,6 +3362,46 @@ export interface paths {
         get: operations["list_coding_rules"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/traces/axis-template": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Axis Trace
+         * @description The channels of the device trace of an axis.
+         */
+        get: operations["get_axis_trace"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/traces/digest": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Digest Trace
+         * @description What a running trace must have as `data_digest`; otherwise it has to be downloaded (EX-07).
+         */
+        post: operations["digest_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -3380,6 +4048,14 @@ export interface components {
             virtual_mode: boolean;
         };
         /**
+         * AxisTemplate
+         * @description The channels of the device trace of an axis.
+         */
+        AxisTemplate: {
+            /** Channels */
+            channels: components["schemas"]["TraceChannel-Output"][];
+        };
+        /**
          * AxisTuning
          * @description What there is to be tuned at an axis, and what a good measurement would be.
          */
@@ -3561,6 +4237,11 @@ export interface components {
              * @description The project to import into; null: a new one.
              */
             project_id?: string | null;
+        };
+        /** Body_upload_recording */
+        Body_upload_recording: {
+            /** File */
+            file: Blob;
         };
         /**
          * Breakpoint
@@ -4410,6 +5091,50 @@ export interface components {
             };
         };
         /**
+         * ChannelSpectrum
+         * @description Single-sided amplitudes; frequency n is n times `step_hz`.
+         */
+        ChannelSpectrum: {
+            /** Amplitudes */
+            amplitudes: number[];
+            /** Pieces */
+            pieces: number;
+            /** Sample Hz */
+            sample_hz: number;
+            /** Samples */
+            samples: number;
+            /** Step Hz */
+            step_hz: number;
+        };
+        /**
+         * ChannelStatistics
+         * @description Of a span of a channel.
+         */
+        ChannelStatistics: {
+            /** Count */
+            count: number;
+            /** Deviation */
+            deviation: number | null;
+            /** First */
+            first: number | null;
+            /** Invalid */
+            invalid: number;
+            /** Last */
+            last: number | null;
+            /** Maximum */
+            maximum: number | null;
+            /** Maximum Ns */
+            maximum_ns: string | null;
+            /** Mean */
+            mean: number | null;
+            /** Minimum */
+            minimum: number | null;
+            /** Minimum Ns */
+            minimum_ns: string | null;
+            /** Rms */
+            rms: number | null;
+        };
+        /**
          * CodeSpot
          * @description Where the program is. Object and part are known for what was built from a project.
          */
@@ -4972,6 +5697,18 @@ export interface components {
             subkind: string | null;
         };
         /**
+         * DifferentValue
+         * @description A variable that is not as recorded.
+         */
+        DifferentValue: {
+            /** Name */
+            name: string;
+            /** Recorded */
+            recorded: string;
+            /** Replayed */
+            replayed: string;
+        };
+        /**
          * DownloadOrder
          * @description How to bring the built application into the runtime.
          */
@@ -5336,6 +6073,62 @@ export interface components {
             cycle: number;
             /** Expressions */
             expressions: string[];
+        };
+        /**
+         * FlightRecordingData
+         * @description The recording, as its file holds it, and what is expected of it.
+         */
+        FlightRecordingData: {
+            /**
+             * Comment
+             * @default
+             */
+            comment: string;
+            /**
+             * Recording
+             * @default
+             */
+            recording: string;
+            /**
+             * Tested
+             * @default true
+             */
+            tested: boolean;
+        };
+        /**
+         * FlightRecordingObject
+         * @description Past cycles of a machine out of the flight recorder, kept with the project as a test.
+         */
+        FlightRecordingObject: {
+            data: components["schemas"]["FlightRecordingData"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "flight_recording";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
         };
         /**
          * FlightState
@@ -6346,6 +7139,42 @@ export interface components {
             runtime_id: string;
         };
         /**
+         * LookBack
+         * @description Show the end of a past cycle that the flight recorder keeps in all subscriptions, later ones as well;
+         *     null: live values again.
+         */
+        LookBack: {
+            /** Cycle */
+            cycle: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            op: "look_back";
+        };
+        /**
+         * LookedBack
+         * @description What the subscriptions show from now on.
+         */
+        LookedBack: {
+            /**
+             * Cycle
+             * @description The past cycle; null: live values.
+             */
+            cycle: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            op: "looked_back";
+            /**
+             * Problem
+             * @description Why the cycle asked for cannot be shown.
+             * @default null
+             */
+            problem: string | null;
+        };
+        /**
          * LoopModel
          * @description The identified model: dead time, and an integrator behind the lag of the velocity loop.
          */
@@ -6819,6 +7648,16 @@ export interface components {
             template?: "standard" | "motion" | "empty";
         };
         /**
+         * NewRecording
+         * @description What to keep, and as what.
+         */
+        NewRecording: {
+            /** Name */
+            name: string;
+            /** Runtime Id */
+            runtime_id: string;
+        };
+        /**
          * NewRuntime
          * @description A runtime to connect to.
          */
@@ -6909,7 +7748,7 @@ export interface components {
          * ObjectDetail
          * @description An object with its data, whose shape depends on `kind`.
          */
-        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["CamObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["RecipeManagerObject"] | components["schemas"]["RecipeDefinitionObject"] | components["schemas"]["TraceObject"] | components["schemas"]["SceneObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
+        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["CamObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["RecipeManagerObject"] | components["schemas"]["RecipeDefinitionObject"] | components["schemas"]["TraceObject"] | components["schemas"]["SceneObject"] | components["schemas"]["FlightRecordingObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ObjectMove
          * @description A new name or place; what is left out stays. A new parent without index: the end of its children.
@@ -7010,7 +7849,7 @@ export interface components {
             /** Object Ids */
             object_ids: string[];
         };
-        OnlineClientMessage: components["schemas"]["Subscribe"] | components["schemas"]["Unsubscribe"] | components["schemas"]["Speak"];
+        OnlineClientMessage: components["schemas"]["Subscribe"] | components["schemas"]["Unsubscribe"] | components["schemas"]["Speak"] | components["schemas"]["LookBack"];
         /**
          * OnlineError
          * @description A message that could not be served; the connection stays open.
@@ -7029,7 +7868,16 @@ export interface components {
              */
             op: "error";
         };
-        OnlineServerMessage: components["schemas"]["Subscribed"] | components["schemas"]["Paced"] | components["schemas"]["StateChanged"] | components["schemas"]["ForcesChanged"] | components["schemas"]["OnlineError"];
+        OnlineServerMessage: components["schemas"]["Subscribed"] | components["schemas"]["Paced"] | components["schemas"]["StateChanged"] | components["schemas"]["ForcesChanged"] | components["schemas"]["LookedBack"] | components["schemas"]["OnlineError"];
+        /**
+         * OpenedRecording
+         * @description A recording that can be looked at as if it were a runtime.
+         */
+        OpenedRecording: {
+            /** @description How the present program relates to the recorded one. */
+            relation: components["schemas"]["Relation"];
+            runtime: components["schemas"]["RuntimeState"];
+        };
         /**
          * OptimiseOrder
          * @description Which points of a cam may move, and for what.
@@ -7974,6 +8822,36 @@ export interface components {
             path: string;
         };
         /**
+         * RecipeVariableType
+         * @description A variable that a recipe can have.
+         */
+        RecipeVariableType: {
+            /** Path */
+            path: string;
+            /** Type */
+            type: string;
+        };
+        /**
+         * RecipeVariables
+         * @description Variables that a recipe definition can have.
+         */
+        RecipeVariables: {
+            /** Found */
+            found: components["schemas"]["RecipeVariableType"][];
+            /**
+             * More
+             * @description There are more that fit; ask for less.
+             */
+            more: boolean;
+            /**
+             * Types
+             * @description The types of the variables that the definition has, by path.
+             */
+            types: {
+                [key: string]: string;
+            };
+        };
+        /**
          * RecipeWritten
          * @description What the variables hold after a recipe was written.
          */
@@ -7985,6 +8863,204 @@ export interface components {
             limited: string[];
             /** Values */
             values: components["schemas"]["Value"][];
+        };
+        /**
+         * Recording
+         * @description A stored recording with the settings of its trace.
+         */
+        Recording: {
+            /** Application */
+            application: string;
+            /** Bytes */
+            bytes: number;
+            /** Comment */
+            comment: string;
+            data: components["schemas"]["TraceData-Output"];
+            /** Ended At */
+            ended_at: string | null;
+            /** Id */
+            id: string;
+            /** Lost */
+            lost: number;
+            /**
+             * Problem
+             * @description Why it ended early.
+             */
+            problem: string | null;
+            /** Project Id */
+            project_id: string | null;
+            /** Records */
+            records: components["schemas"]["RecordingRecord"][];
+            /** Runtime */
+            runtime: string;
+            /** Runtime Id */
+            runtime_id: string | null;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at: string;
+            /** Started By */
+            started_by: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "recording" | "complete" | "interrupted";
+            /** Title */
+            title: string;
+            /** Trace */
+            trace: string;
+        };
+        /**
+         * RecordingChange
+         * @description What is changed of a stored recording; null: as it is.
+         */
+        RecordingChange: {
+            /** Comment */
+            comment?: string | null;
+            /** Title */
+            title?: string | null;
+        };
+        /**
+         * RecordingFacts
+         * @description What a recording holds.
+         */
+        RecordingFacts: {
+            /** Application */
+            application: string;
+            /** Code Id */
+            code_id: string;
+            /** Cycles */
+            cycles: number;
+            exception: components["schemas"]["RuntimeException"] | null;
+            /** First Cycle */
+            first_cycle: number;
+            /**
+             * First Timestamp
+             * Format: date-time
+             */
+            first_timestamp: string;
+            /** Last Cycle */
+            last_cycle: number;
+            /**
+             * Last Timestamp
+             * Format: date-time
+             */
+            last_timestamp: string;
+            /** Project */
+            project: string;
+            /**
+             * Saved At
+             * Format: date-time
+             */
+            saved_at: string;
+            /**
+             * Size
+             * @description Characters of the file.
+             */
+            size: number;
+            /**
+             * Writes
+             * @description Writes from outside that a replay gives again.
+             */
+            writes: number;
+        };
+        /**
+         * RecordingInfo
+         * @description A stored recording.
+         */
+        RecordingInfo: {
+            /** Application */
+            application: string;
+            /** Bytes */
+            bytes: number;
+            /** Comment */
+            comment: string;
+            /** Ended At */
+            ended_at: string | null;
+            /** Id */
+            id: string;
+            /** Lost */
+            lost: number;
+            /**
+             * Problem
+             * @description Why it ended early.
+             */
+            problem: string | null;
+            /** Project Id */
+            project_id: string | null;
+            /** Records */
+            records: components["schemas"]["RecordingRecord"][];
+            /** Runtime */
+            runtime: string;
+            /** Runtime Id */
+            runtime_id: string | null;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at: string;
+            /** Started By */
+            started_by: string;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "recording" | "complete" | "interrupted";
+            /** Title */
+            title: string;
+            /** Trace */
+            trace: string;
+        };
+        /**
+         * RecordingList
+         * @description Stored recordings, newest first, and the room they take.
+         */
+        RecordingList: {
+            /** Quota Bytes */
+            quota_bytes: number;
+            /** Recordings */
+            recordings: components["schemas"]["RecordingInfo"][];
+            /** Used Bytes */
+            used_bytes: number;
+        };
+        /**
+         * RecordingOrder
+         * @description A long-term recording to be begun.
+         */
+        RecordingOrder: {
+            /** Project Id */
+            project_id?: string | null;
+            /** Seconds */
+            seconds?: number | null;
+            /**
+             * Title
+             * @default
+             */
+            title?: string;
+        };
+        /**
+         * RecordingRecord
+         * @description A record of a stored recording.
+         */
+        RecordingRecord: {
+            /** Channels */
+            channels: components["schemas"]["SampledChannel"][];
+            /** First Ns */
+            first_ns: string | null;
+            /** Interval Ns */
+            interval_ns: number;
+            /** Last Ns */
+            last_ns: string | null;
+            /** Name */
+            name: string;
+            /** Samples */
+            samples: number;
+            /** Task */
+            task: string;
+            /** Trigger Ns */
+            trigger_ns: string | null;
         };
         /**
          * Relation
@@ -8051,6 +9127,66 @@ export interface components {
              * @description The change of the project, which can be taken back; null when nothing differs.
              */
             revision: number | null;
+        };
+        /**
+         * ReplayReport
+         * @description What came of a replay.
+         */
+        ReplayReport: {
+            /**
+             * Cycles
+             * @default 0
+             */
+            cycles: number;
+            fault: components["schemas"]["RuntimeException"] | null;
+            /**
+             * First Difference
+             * @description Cycle.
+             */
+            first_difference: number | null;
+            /**
+             * Last Cycle
+             * @default 0
+             */
+            last_cycle: number;
+            /**
+             * Notes
+             * @default []
+             */
+            notes: string[];
+            /**
+             * Ok
+             * @description As recorded; on the present program: it does not fail.
+             */
+            ok: boolean;
+            /** Problem */
+            problem: string | null;
+            recorded: components["schemas"]["RuntimeException"] | null;
+            /**
+             * Same Fault
+             * @default false
+             */
+            same_fault: boolean;
+            /** Today */
+            today: boolean;
+            /**
+             * Variables
+             * @description Those that differ in that cycle.
+             * @default []
+             */
+            variables: components["schemas"]["DifferentValue"][];
+        };
+        /**
+         * ReplayRequest
+         * @description What to replay it on.
+         */
+        ReplayRequest: {
+            /**
+             * Today
+             * @description On the present program, by the names of variables; else on the recorded one.
+             * @default false
+             */
+            today?: boolean;
         };
         /**
          * RequiredLibrary
@@ -8309,6 +9445,44 @@ export interface components {
             cam: components["schemas"]["CamTable-Input"];
         };
         /**
+         * RunningRecord
+         * @description A record that runs.
+         */
+        RunningRecord: {
+            /** Capacity */
+            capacity: number;
+            /** Channels */
+            channels: components["schemas"]["SampledChannel"][];
+            /**
+             * First
+             * @description Number of the oldest sample of the picture.
+             */
+            first: number;
+            /** Interval Ns */
+            interval_ns: number;
+            /**
+             * Lost
+             * @description Samples that a long-term recording could not read in time.
+             */
+            lost: number;
+            /** Name */
+            name: string;
+            /**
+             * Samples
+             * @description Since the download.
+             */
+            samples: number;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "stopped" | "recording" | "waiting" | "triggered" | "done";
+            /** Task */
+            task: string;
+            /** @description Null where none is set. */
+            trigger: components["schemas"]["TriggerState"] | null;
+        };
+        /**
          * RuntimeException
          * @description Why an application stopped.
          */
@@ -8381,6 +9555,21 @@ export interface components {
             state: ("empty" | "stop" | "run" | "exception") | null;
             /** Url */
             url: string;
+        };
+        /**
+         * SampledChannel
+         * @description A channel as it is sampled.
+         */
+        SampledChannel: {
+            /**
+             * Index
+             * @description Number of the channel in the settings of the record.
+             */
+            index: number;
+            /** Name */
+            name: string;
+            /** Type */
+            type: string;
         };
         /**
          * Scaling
@@ -8873,6 +10062,19 @@ export interface components {
             switches: components["schemas"]["Switches"];
         };
         /**
+         * SnapshotOrder
+         * @description A recording to be made of what a trace holds now.
+         */
+        SnapshotOrder: {
+            /** Project Id */
+            project_id?: string | null;
+            /**
+             * Title
+             * @default
+             */
+            title?: string;
+        };
+        /**
          * SoftwareLimits
          * @description The travel range of a finite axis (AXIS-12).
          */
@@ -9231,6 +10433,34 @@ export interface components {
             type: string;
         };
         /**
+         * SystemEventCall
+         * @description A function that is called at a system event (TASK-05).
+         */
+        SystemEventCall: {
+            /**
+             * Active
+             * @description False: it is not called.
+             * @default true
+             */
+            active: boolean;
+            /**
+             * Description
+             * @default
+             */
+            description: string;
+            /**
+             * Event
+             * @description What happens.
+             * @enum {string}
+             */
+            event: "PrepareStart" | "StartDone" | "PrepareStop" | "StopDone" | "PrepareReset" | "ResetDone" | "PrepareOnlineChange" | "OnlineChangeDone" | "PrepareDownload" | "DownloadDone" | "PrepareExit" | "Exception" | "AfterReadingInputs" | "BeforeWritingOutputs";
+            /**
+             * Function
+             * @description Function or program that is called then.
+             */
+            function: string;
+        };
+        /**
          * TakenDifference
          * @description What to take over of one difference.
          */
@@ -9273,11 +10503,27 @@ export interface components {
             whole?: boolean;
         };
         /**
+         * TaskConfigurationData
+         * @description What belongs to no single task.
+         */
+        TaskConfigurationData: {
+            /**
+             * Groups
+             * @default []
+             */
+            groups: components["schemas"]["TaskGroup"][];
+            /**
+             * System Events
+             * @default []
+             */
+            system_events: components["schemas"]["SystemEventCall"][];
+        };
+        /**
          * TaskConfigurationObject
          * @description Holds the tasks of an application.
          */
         TaskConfigurationObject: {
-            data: components["schemas"]["NoData"];
+            data: components["schemas"]["TaskConfigurationData"];
             /**
              * Excluded
              * @description From the build.
@@ -9319,6 +10565,12 @@ export interface components {
              */
             event: string;
             /**
+             * Group
+             * @description Task group of the task configuration; empty for none.
+             * @default
+             */
+            group: string;
+            /**
              * Interval
              * @description TIME literal or microseconds; cyclic tasks (TASK-12).
              * @default T#20ms
@@ -9349,6 +10601,30 @@ export interface components {
              *     }
              */
             watchdog: components["schemas"]["WatchdogData"];
+        };
+        /**
+         * TaskGroup
+         * @description Tasks that share processors.
+         */
+        TaskGroup: {
+            /**
+             * Name
+             * @description Unique in the configuration.
+             */
+            name: string;
+            /**
+             * Policy
+             * @description fifo: at real-time priority until a task waits; round_robin: tasks of one priority take turns; normal: like other programs.
+             * @default fifo
+             * @enum {string}
+             */
+            policy: "fifo" | "round_robin" | "normal";
+            /**
+             * Processors
+             * @description Numbers of the processors of the host, from 0; none: as the runtime does it.
+             * @default []
+             */
+            processors: number[];
         };
         /**
          * TaskObject
@@ -9620,7 +10896,62 @@ export interface components {
          * TraceAppearance
          * @description How the diagram of a record looks where all its curves share one (TRC-50 .. TRC-62).
          */
-        TraceAppearance: {
+        "TraceAppearance-Input": {
+            /**
+             * Background
+             * @default
+             */
+            background?: string;
+            /**
+             * Font Size
+             * @default 12
+             */
+            font_size?: number;
+            /**
+             * Selected Background
+             * @default
+             */
+            selected_background?: string;
+            /**
+             * @default {
+             *       "arrow": "none",
+             *       "description": "",
+             *       "grid": true,
+             *       "grid_color": "",
+             *       "length": "T#10s",
+             *       "major": "",
+             *       "maximum": "T#10s",
+             *       "minimum": "T#0s",
+             *       "minor": "",
+             *       "mode": "auto",
+             *       "position": "low",
+             *       "reverse": false
+             *     }
+             */
+            x?: components["schemas"]["TraceTimeAxis-Input"];
+            /**
+             * @default {
+             *       "arrow": "none",
+             *       "description": "",
+             *       "grid": true,
+             *       "grid_color": "",
+             *       "length": 100,
+             *       "major": 0,
+             *       "maximum": 100,
+             *       "minimum": 0,
+             *       "minor": 0,
+             *       "mode": "auto",
+             *       "position": "low",
+             *       "reverse": false
+             *     }
+             */
+            y?: components["schemas"]["TraceValueAxis-Input"];
+        };
+        /**
+         * TraceAppearance
+         * @description How the diagram of a record looks where all its curves share one (TRC-50 .. TRC-62).
+         */
+        "TraceAppearance-Output": {
             /**
              * Background
              * @default
@@ -9652,7 +10983,7 @@ export interface components {
              *       "reverse": false
              *     }
              */
-            x: components["schemas"]["TraceTimeAxis"];
+            x: components["schemas"]["TraceTimeAxis-Output"];
             /**
              * @default {
              *       "arrow": "none",
@@ -9669,13 +11000,13 @@ export interface components {
              *       "reverse": false
              *     }
              */
-            y: components["schemas"]["TraceValueAxis"];
+            y: components["schemas"]["TraceValueAxis-Output"];
         };
         /**
          * TraceChannel
          * @description A curve: a variable or expression that the runtime samples, or a formula of other channels.
          */
-        TraceChannel: {
+        "TraceChannel-Input": {
             /**
              * @default {
              *       "arrow": "none",
@@ -9692,7 +11023,85 @@ export interface components {
              *       "reverse": false
              *     }
              */
-            appearance: components["schemas"]["TraceValueAxis"];
+            appearance?: components["schemas"]["TraceValueAxis-Input"];
+            /**
+             * Axis
+             * @default 0
+             */
+            axis?: number;
+            /**
+             * Color
+             * @default
+             */
+            color?: string;
+            /**
+             * Formula
+             * @description Computed from channels by their names; not recorded.
+             * @default
+             */
+            formula?: string;
+            /**
+             * Graph
+             * @default line
+             * @enum {string}
+             */
+            graph?: "none" | "line" | "cross" | "saw_tooth" | "step" | "points";
+            /**
+             * @default {
+             *       "color": "#ff0000",
+             *       "limit": 0,
+             *       "on": false
+             *     }
+             */
+            maximum_warning?: components["schemas"]["TraceLimit-Input"];
+            /**
+             * @default {
+             *       "color": "#ff0000",
+             *       "limit": 0,
+             *       "on": false
+             *     }
+             */
+            minimum_warning?: components["schemas"]["TraceLimit-Input"];
+            /**
+             * Name
+             * @description In the legend and in formulas.
+             * @default
+             */
+            name?: string;
+            /**
+             * Variable
+             * @description Path or expression (TRC-40).
+             * @default
+             */
+            variable?: string;
+            /**
+             * Visible
+             * @default true
+             */
+            visible?: boolean;
+        };
+        /**
+         * TraceChannel
+         * @description A curve: a variable or expression that the runtime samples, or a formula of other channels.
+         */
+        "TraceChannel-Output": {
+            /**
+             * @default {
+             *       "arrow": "none",
+             *       "description": "",
+             *       "grid": true,
+             *       "grid_color": "",
+             *       "length": 100,
+             *       "major": 0,
+             *       "maximum": 100,
+             *       "minimum": 0,
+             *       "minor": 0,
+             *       "mode": "auto",
+             *       "position": "low",
+             *       "reverse": false
+             *     }
+             */
+            appearance: components["schemas"]["TraceValueAxis-Output"];
             /**
              * Axis
              * @default 0
@@ -9722,7 +11131,7 @@ export interface components {
              *       "on": false
              *     }
              */
-            maximum_warning: components["schemas"]["TraceLimit"];
+            maximum_warning: components["schemas"]["TraceLimit-Output"];
             /**
              * @default {
              *       "color": "#ff0000",
@@ -9730,7 +11139,7 @@ export interface components {
              *       "on": false
              *     }
              */
-            minimum_warning: components["schemas"]["TraceLimit"];
+            minimum_warning: components["schemas"]["TraceLimit-Output"];
             /**
              * Name
              * @description In the legend and in formulas.
@@ -9753,7 +11162,36 @@ export interface components {
          * TraceData
          * @description A trace and its records (TRC-10 .. TRC-12).
          */
-        TraceData: {
+        "TraceData-Input": {
+            /**
+             * Points
+             * @description Most samples that a record keeps in the runtime.
+             * @default 10000
+             */
+            points?: number;
+            /**
+             * Records
+             * @default []
+             */
+            records?: components["schemas"]["TraceRecord-Input"][];
+            /**
+             * Refresh Rate
+             * @description ms between two pictures.
+             * @default 500
+             */
+            refresh_rate?: number;
+            /**
+             * Stacked
+             * @description Diagrams of records one above another.
+             * @default false
+             */
+            stacked?: boolean;
+        };
+        /**
+         * TraceData
+         * @description A trace and its records (TRC-10 .. TRC-12).
+         */
+        "TraceData-Output": {
             /**
              * Points
              * @description Most samples that a record keeps in the runtime.
@@ -9764,7 +11202,7 @@ export interface components {
              * Records
              * @default []
              */
-            records: components["schemas"]["TraceRecord"][];
+            records: components["schemas"]["TraceRecord-Output"][];
             /**
              * Refresh Rate
              * @description ms between two pictures.
@@ -9779,10 +11217,53 @@ export interface components {
             stacked: boolean;
         };
         /**
+         * TraceDigest
+         * @description Differs where settings differ that the runtime has to know: a download is needed.
+         */
+        TraceDigest: {
+            /** Digest */
+            digest: string;
+        };
+        /**
+         * TraceDownload
+         * @description A trace to be downloaded.
+         */
+        TraceDownload: {
+            data: components["schemas"]["TraceData-Input"];
+            /** Project Id */
+            project_id?: string | null;
+            /**
+             * Start
+             * @default true
+             */
+            start?: boolean;
+        };
+        /**
          * TraceLimit
          * @description Values beyond a limit are drawn in a colour of their own (TRC-43 .. TRC-46).
          */
-        TraceLimit: {
+        "TraceLimit-Input": {
+            /**
+             * Color
+             * @default #ff0000
+             */
+            color?: string;
+            /**
+             * Limit
+             * @default 0
+             */
+            limit?: number;
+            /**
+             * On
+             * @default false
+             */
+            on?: boolean;
+        };
+        /**
+         * TraceLimit
+         * @description Values beyond a limit are drawn in a colour of their own (TRC-43 .. TRC-46).
+         */
+        "TraceLimit-Output": {
             /**
              * Color
              * @default #ff0000
@@ -9804,7 +11285,7 @@ export interface components {
          * @description A trace: variables that the runtime samples in step with a task, as curves over time.
          */
         TraceObject: {
-            data: components["schemas"]["TraceData"];
+            data: components["schemas"]["TraceData-Output"];
             /**
              * Excluded
              * @description From the build.
@@ -9838,7 +11319,7 @@ export interface components {
          * TraceRecord
          * @description Variables that one task samples into one ring (TRC-20 .. TRC-31).
          */
-        TraceRecord: {
+        "TraceRecord-Input": {
             /**
              * @default {
              *       "background": "",
@@ -9874,7 +11355,97 @@ export interface components {
              *       }
              *     }
              */
-            appearance: components["schemas"]["TraceAppearance"];
+            appearance?: components["schemas"]["TraceAppearance-Input"];
+            /**
+             * Buffer
+             * @description Samples in the ring.
+             * @default 100
+             */
+            buffer?: number;
+            /**
+             * Channels
+             * @default []
+             */
+            channels?: components["schemas"]["TraceChannel-Input"][];
+            /**
+             * Comment
+             * @default
+             */
+            comment?: string;
+            /**
+             * Condition
+             * @description Samples are taken while it is TRUE.
+             * @default
+             */
+            condition?: string;
+            /**
+             * Every
+             * @description Cycles between two samples.
+             * @default 1
+             */
+            every?: number;
+            /**
+             * Name
+             * @default Record1
+             */
+            name?: string;
+            /**
+             * Task
+             * @description Empty: the first task.
+             * @default
+             */
+            task?: string;
+            /**
+             * @default {
+             *       "edge": "none",
+             *       "level": "",
+             *       "position": 50,
+             *       "variable": ""
+             *     }
+             */
+            trigger?: components["schemas"]["TraceTrigger-Input"];
+        };
+        /**
+         * TraceRecord
+         * @description Variables that one task samples into one ring (TRC-20 .. TRC-31).
+         */
+        "TraceRecord-Output": {
+            /**
+             * @default {
+             *       "background": "",
+             *       "font_size": 12,
+             *       "selected_background": "",
+             *       "x": {
+             *         "arrow": "none",
+             *         "description": "",
+             *         "grid": true,
+             *         "grid_color": "",
+             *         "length": "T#10s",
+             *         "major": "",
+             *         "maximum": "T#10s",
+             *         "minimum": "T#0s",
+             *         "minor": "",
+             *         "mode": "auto",
+             *         "position": "low",
+             *         "reverse": false
+             *       },
+             *       "y": {
+             *         "arrow": "none",
+             *         "description": "",
+             *         "grid": true,
+             *         "grid_color": "",
+             *         "length": 100,
+             *         "major": 0,
+             *         "maximum": 100,
+             *         "minimum": 0,
+             *         "minor": 0,
+             *         "mode": "auto",
+             *         "position": "low",
+             *         "reverse": false
+             *       }
+             *     }
+             */
+            appearance: components["schemas"]["TraceAppearance-Output"];
             /**
              * Buffer
              * @description Samples in the ring.
@@ -9885,7 +11456,7 @@ export interface components {
              * Channels
              * @default []
              */
-            channels: components["schemas"]["TraceChannel"][];
+            channels: components["schemas"]["TraceChannel-Output"][];
             /**
              * Comment
              * @default
@@ -9922,13 +11493,121 @@ export interface components {
              *       "variable": ""
              *     }
              */
-            trigger: components["schemas"]["TraceTrigger"];
+            trigger: components["schemas"]["TraceTrigger-Output"];
+        };
+        /**
+         * TraceSettings
+         * @description The settings of a trace that runs in a controller.
+         */
+        TraceSettings: {
+            data: components["schemas"]["TraceData-Output"];
+        };
+        /**
+         * TraceSettingsOrder
+         * @description Settings of a trace.
+         */
+        TraceSettingsOrder: {
+            data: components["schemas"]["TraceData-Input"];
+        };
+        /**
+         * TraceState
+         * @description A trace that runs in a controller.
+         */
+        TraceState: {
+            /** Application */
+            application: string;
+            /** Data Digest */
+            data_digest: string;
+            /**
+             * Downloaded At
+             * Format: date-time
+             */
+            downloaded_at: string;
+            /** Downloaded By */
+            downloaded_by: string;
+            /** Name */
+            name: string;
+            recording: components["schemas"]["RecordingInfo"] | null;
+            /** Records */
+            records: components["schemas"]["RunningRecord"][];
+            /** Running */
+            running: boolean;
         };
         /**
          * TraceTimeAxis
          * @description The X axis; `length` is what is visible while it scrolls (TRC-50 .. TRC-54).
          */
-        TraceTimeAxis: {
+        "TraceTimeAxis-Input": {
+            /**
+             * Arrow
+             * @default none
+             * @enum {string}
+             */
+            arrow?: "none" | "open" | "filled";
+            /**
+             * Description
+             * @default
+             */
+            description?: string;
+            /**
+             * Grid
+             * @default true
+             */
+            grid?: boolean;
+            /**
+             * Grid Color
+             * @default
+             */
+            grid_color?: string;
+            /**
+             * Length
+             * @default T#10s
+             */
+            length?: string;
+            /**
+             * Major
+             * @description Distance of long ticks; empty: chosen.
+             * @default
+             */
+            major?: string | "";
+            /**
+             * Maximum
+             * @default T#10s
+             */
+            maximum?: string;
+            /**
+             * Minimum
+             * @default T#0s
+             */
+            minimum?: string;
+            /**
+             * Minor
+             * @default
+             */
+            minor?: string | "";
+            /**
+             * Mode
+             * @default auto
+             * @enum {string}
+             */
+            mode?: "auto" | "fixed" | "scrolling";
+            /**
+             * Position
+             * @default low
+             * @enum {string}
+             */
+            position?: "low" | "middle" | "high";
+            /**
+             * Reverse
+             * @default false
+             */
+            reverse?: boolean;
+        };
+        /**
+         * TraceTimeAxis
+         * @description The X axis; `length` is what is visible while it scrolls (TRC-50 .. TRC-54).
+         */
+        "TraceTimeAxis-Output": {
             /**
              * Arrow
              * @default none
@@ -9998,7 +11677,37 @@ export interface components {
          * TraceTrigger
          * @description When a record has seen what it waits for (TRC-20 .. TRC-23).
          */
-        TraceTrigger: {
+        "TraceTrigger-Input": {
+            /**
+             * Edge
+             * @default none
+             * @enum {string}
+             */
+            edge?: "none" | "positive" | "negative" | "both";
+            /**
+             * Level
+             * @description Literal, variable or enumeration value; empty for BOOL.
+             * @default
+             */
+            level?: string;
+            /**
+             * Position
+             * @description Percent of the samples behind it.
+             * @default 50
+             */
+            position?: number;
+            /**
+             * Variable
+             * @description BOOL, number, enumeration, or an expression.
+             * @default
+             */
+            variable?: string;
+        };
+        /**
+         * TraceTrigger
+         * @description When a record has seen what it waits for (TRC-20 .. TRC-23).
+         */
+        "TraceTrigger-Output": {
             /**
              * Edge
              * @default none
@@ -10028,7 +11737,77 @@ export interface components {
          * TraceValueAxis
          * @description A Y axis (TRC-61).
          */
-        TraceValueAxis: {
+        "TraceValueAxis-Input": {
+            /**
+             * Arrow
+             * @default none
+             * @enum {string}
+             */
+            arrow?: "none" | "open" | "filled";
+            /**
+             * Description
+             * @default
+             */
+            description?: string;
+            /**
+             * Grid
+             * @default true
+             */
+            grid?: boolean;
+            /**
+             * Grid Color
+             * @default
+             */
+            grid_color?: string;
+            /**
+             * Length
+             * @default 100
+             */
+            length?: number;
+            /**
+             * Major
+             * @description Distance of long ticks; 0: chosen.
+             * @default 0
+             */
+            major?: number;
+            /**
+             * Maximum
+             * @default 100
+             */
+            maximum?: number;
+            /**
+             * Minimum
+             * @default 0
+             */
+            minimum?: number;
+            /**
+             * Minor
+             * @default 0
+             */
+            minor?: number;
+            /**
+             * Mode
+             * @default auto
+             * @enum {string}
+             */
+            mode?: "auto" | "fixed" | "scrolling";
+            /**
+             * Position
+             * @default low
+             * @enum {string}
+             */
+            position?: "low" | "middle" | "high";
+            /**
+             * Reverse
+             * @default false
+             */
+            reverse?: boolean;
+        };
+        /**
+         * TraceValueAxis
+         * @description A Y axis (TRC-61).
+         */
+        "TraceValueAxis-Output": {
             /**
              * Arrow
              * @default none
@@ -10093,6 +11872,22 @@ export interface components {
              * @default false
              */
             reverse: boolean;
+        };
+        /**
+         * TriggerState
+         * @description What the trigger has seen (TRC-82).
+         */
+        TriggerState: {
+            /**
+             * At Ns
+             * @description Unix time of the event.
+             */
+            at_ns: string | null;
+            /**
+             * Percent
+             * @description Of the samples behind the trigger.
+             */
+            percent: number;
         };
         /**
          * TuningGain
@@ -10367,6 +12162,11 @@ export interface components {
              * @default false
              */
             enabled: boolean;
+            /**
+             * Percent
+             * @description Percent of the interval instead of the time; cyclic tasks.
+             */
+            percent: number | null;
             /**
              * Sensitivity
              * @description Number of overruns that are one too many.
@@ -12315,6 +14115,98 @@ export interface operations {
             };
         };
     };
+    save_recording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                application_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewRecording"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ObjectDetail"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    upload_recording: {
+        parameters: {
+            query: {
+                name: string;
+            };
+            header?: never;
+            path: {
+                project_id: string;
+                application_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "multipart/form-data": components["schemas"]["Body_upload_recording"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ObjectDetail"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     download_source: {
         parameters: {
             query?: never;
@@ -14157,6 +16049,50 @@ export interface operations {
             };
         };
     };
+    list_recipe_variables: {
+        parameters: {
+            query?: {
+                /** @description Parts of the path, separated by blanks. */
+                query?: string;
+            };
+            header?: never;
+            path: {
+                project_id: string;
+                definition_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecipeVariables"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     export_recipe: {
         parameters: {
             query?: never;
@@ -14176,7 +16112,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "text/plain": string;
+                    "text/plain": Blob;
                 };
             };
             /** @description The request was refused */
@@ -14223,6 +16159,174 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ObjectDetail"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_recording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                object_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordingFacts"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    download_recording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                object_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    open_recording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                object_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["OpenedRecording"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    replay_recording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                object_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ReplayRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReplayReport"];
                 };
             };
             /** @description The request was refused */
@@ -14600,6 +16704,498 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["UndoOutcome"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    list_recordings: {
+        parameters: {
+            query?: {
+                project_id?: string | null;
+                trace?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordingList"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    load_trace: {
+        parameters: {
+            query?: {
+                title?: string;
+                project_id?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/octet-stream": Blob;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordingInfo"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_recording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                recording_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Recording"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    delete_recording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                recording_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    change_recording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                recording_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RecordingChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordingInfo"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_recording_derived: {
+        parameters: {
+            query: {
+                /** @description Among the sampled channels. */
+                channel: number;
+                operation: "derivative" | "integral";
+                record?: number;
+                /** @description Unix time in ns. */
+                from?: number | null;
+                /** @description Unix time in ns. */
+                to?: number | null;
+                /** @description Points of the diagram. */
+                width?: number;
+            };
+            header?: never;
+            path: {
+                recording_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description docs/trace.md */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.tappet.samples": Blob;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    export_recording: {
+        parameters: {
+            query?: {
+                record?: number;
+                format?: "csv" | "parquet" | "trace";
+            };
+            header?: never;
+            path: {
+                recording_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description File */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": Blob;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_recording_samples: {
+        parameters: {
+            query?: {
+                record?: number;
+                first?: number;
+                count?: number;
+            };
+            header?: never;
+            path: {
+                recording_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description docs/trace.md */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.tappet.samples": Blob;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_recording_spectrum: {
+        parameters: {
+            query: {
+                /** @description Among the sampled channels. */
+                channel: number;
+                record?: number;
+                /** @description Unix time in ns. */
+                from?: number | null;
+                /** @description Unix time in ns. */
+                to?: number | null;
+                window?: "rectangular" | "hann" | "hamming" | "blackman" | "flat_top";
+            };
+            header?: never;
+            path: {
+                recording_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChannelSpectrum"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_recording_statistics: {
+        parameters: {
+            query: {
+                /** @description Among the sampled channels. */
+                channel: number;
+                record?: number;
+                /** @description Unix time in ns. */
+                from?: number | null;
+                /** @description Unix time in ns. */
+                to?: number | null;
+            };
+            header?: never;
+            path: {
+                recording_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChannelStatistics"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_recording_window: {
+        parameters: {
+            query?: {
+                record?: number;
+                /** @description Unix time in ns. */
+                from?: number | null;
+                /** @description Unix time in ns. */
+                to?: number | null;
+                /** @description Points of the diagram. */
+                width?: number;
+                channels?: string | null;
+            };
+            header?: never;
+            path: {
+                recording_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description docs/trace.md */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.tappet.samples": Blob;
                 };
             };
             /** @description The request was refused */
@@ -15757,6 +18353,46 @@ export interface operations {
             };
         };
     };
+    download_flight: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     flight_freeze: {
         parameters: {
             query?: never;
@@ -16588,6 +19224,756 @@ export interface operations {
             };
         };
     };
+    list_traces: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceState"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_trace: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    download_trace: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TraceDownload"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    remove_trace: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    upload_trace: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceSettings"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_trace_derived: {
+        parameters: {
+            query: {
+                /** @description Among the sampled channels. */
+                channel: number;
+                operation: "derivative" | "integral";
+                record?: number;
+                /** @description Unix time in ns. */
+                from?: number | null;
+                /** @description Unix time in ns. */
+                to?: number | null;
+                /** @description Points of the diagram. */
+                width?: number;
+            };
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description docs/trace.md */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.tappet.samples": Blob;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    export_trace: {
+        parameters: {
+            query?: {
+                record?: number;
+                format?: "csv" | "parquet" | "trace";
+            };
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description File */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": Blob;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    begin_recording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RecordingOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordingInfo"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    end_recording: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordingInfo"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    reset_trigger: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_trace_samples: {
+        parameters: {
+            query?: {
+                record?: number;
+                first?: number;
+                count?: number;
+            };
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description docs/trace.md */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.tappet.samples": Blob;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    store_trace: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SnapshotOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordingInfo"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_trace_spectrum: {
+        parameters: {
+            query: {
+                /** @description Among the sampled channels. */
+                channel: number;
+                record?: number;
+                /** @description Unix time in ns. */
+                from?: number | null;
+                /** @description Unix time in ns. */
+                to?: number | null;
+                window?: "rectangular" | "hann" | "hamming" | "blackman" | "flat_top";
+            };
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChannelSpectrum"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    start_trace: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_trace_statistics: {
+        parameters: {
+            query: {
+                /** @description Among the sampled channels. */
+                channel: number;
+                record?: number;
+                /** @description Unix time in ns. */
+                from?: number | null;
+                /** @description Unix time in ns. */
+                to?: number | null;
+            };
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChannelStatistics"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    stop_trace: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_trace_window: {
+        parameters: {
+            query?: {
+                record?: number;
+                /** @description Unix time in ns. */
+                from?: number | null;
+                /** @description Unix time in ns. */
+                to?: number | null;
+                /** @description Points of the diagram. */
+                width?: number;
+                channels?: string | null;
+            };
+            header?: never;
+            path: {
+                name: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description docs/trace.md */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.tappet.samples": Blob;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     force_values: {
         parameters: {
             query?: never;
@@ -16782,6 +20168,88 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CodingRule"][];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    get_axis_trace: {
+        parameters: {
+            query: {
+                axis: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AxisTemplate"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    digest_trace: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TraceSettingsOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceDigest"];
                 };
             };
             /** @description The request was refused */
