@@ -73,7 +73,7 @@ def test_emission(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: Any) -> None:
         raise AssertionError
 
-    monkeypatch.setitem(emit_function._HANDLERS, ir.For, fail)
+    monkeypatch.setitem(emit_function.FunctionEmitter.handlers, ir.For, fail)
     (error,) = build()
     assert (error.code, error.uri, error.span.line) == ("E0905", "leaf", 2)
     assert error.message.endswith("(code generation): AssertionError")
