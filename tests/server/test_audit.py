@@ -64,6 +64,7 @@ EXEMPT = {
     "undo_change": HISTORY,
     "undo_step": HISTORY,
     "redo_step": HISTORY,
+    "add_instance_paths": HISTORY,
     "read_recipe": HISTORY,
     "import_recipe": HISTORY,
     "compare_recipes": READS,

@@ -60,6 +60,7 @@ FILES_FOR_OTHERS = {
     "server/lsp/stdio.py": "the command line",
     "server/metrics/service.py": "Prometheus",
     "server/openapi.py": "the API document",
+    "server/persistent/service.py": "declarations",
     "server/serve.py": "the command line",
     "server/static.py": "a server without a front end",
 }  # fmt: skip

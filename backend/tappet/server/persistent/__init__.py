@@ -1,0 +1,1 @@
+"""The list of persistent variables: paths of those that programs and function blocks declare."""

@@ -1,0 +1,38 @@
+"""The list of persistent variables in the browser: Add All Instance Paths."""
+
+from __future__ import annotations
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from .api import fetch
+from .conftest import Server
+from .workbench import choose_menu, open_object, open_project
+
+pytestmark = pytest.mark.e2e
+
+DECLARATION = "PROGRAM PLC_PRG\nVAR PERSISTENT\n    nHours : UDINT;\nEND_VAR"
+
+
+def test_all_instance_paths_are_added(page: Page, server: Server) -> None:
+    """PERS-07."""
+    project = fetch(page, server, "POST", "/projects", data={"name": "Hours"})
+    path = f"/projects/{project['id']}/objects"
+    objects = fetch(page, server, "GET", path)
+    application = next(item for item in objects if item["kind"] == "application")
+    program = next(item for item in objects if item["kind"] == "pou")
+    data = {"declaration": DECLARATION, "implementation": "nHours := nHours + 1;"}
+    body = {"base_revision": program["revision"], "data": data}
+    fetch(page, server, "PUT", f"{path}/{program['id']}", data=body)
+    body = {"kind": "persistent", "name": "Kept", "parent_id": application["id"]}
+    fetch(page, server, "POST", path, data=body)
+    page.reload()
+    open_project(page, "Hours")
+    open_object(page, "Kept")
+    panel = page.locator(".dv-active-group [data-panel-id]:visible").last
+    expect(panel).to_contain_text("VAR_GLOBAL")
+    choose_menu(page, "Edit", "Add All Instance Paths")
+    expect(page.get_by_text("Instance paths added to Kept")).to_be_visible()
+    expect(panel).to_contain_text("PLC_PRG.nHours")
+    choose_menu(page, "Edit", "Add All Instance Paths")
+    expect(page.get_by_text("Nothing to add to Kept")).to_be_visible()
