@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 from fastapi import Path, Query
 from fastapi.responses import Response
+from msgspec import structs
 
 from tappet.project.naming import MAX_NAME
 from tappet.project.trace import axis_channels
@@ -44,6 +45,7 @@ from tappet.server.traces.shapes import (
     TraceSettingsOrder,
     TraceState,
 )
+from tappet.server.traces.store import RecordingOrigin
 
 router = Router(prefix="/runtimes/{runtime_id}/traces", tags=["traces"])
 settings_router = Router(prefix="/traces", tags=["traces"])
@@ -280,17 +282,18 @@ async def _recording_fields(
     """What is known of a recording before its samples."""
     status = await services.traces.mirrors.of(link, name).refresh()
     settings = await settings_of(link, name)
-    return {
-        "title": order.title or status.name,
-        "comment": "",
-        "trace": status.name,
-        "application": status.application,
-        "runtime_id": link.id,
-        "runtime": link.name,
-        "project_id": order.project_id,
-        "started_by": author,
-        "settings": settings.model_dump(mode="json"),
-    }
+    origin = RecordingOrigin(
+        title=order.title or status.name,
+        comment="",
+        trace=status.name,
+        application=status.application,
+        runtime_id=link.id,
+        runtime=link.name,
+        project_id=order.project_id,
+        started_by=author,
+        settings=settings.model_dump(mode="json"),
+    )
+    return structs.asdict(origin)
 
 
 @router.post("/{name}/recording", status_code=201)

@@ -7,6 +7,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from msgspec import structs
+
 from tappet.project.trace import TraceData
 from tappet.runtime.operations.tasks import ListTasks
 from tappet.runtime.operations.traces import DownloadTrace, UploadTrace
@@ -152,11 +154,9 @@ def recording_with_settings(recording: StoredRecording) -> Recording:
 
 def _facts(recording: StoredRecording) -> dict[str, Any]:
     meta = recording.meta
-    kept = (
-        "id", "title", "comment", "trace", "application", "runtime_id", "runtime", "project_id", "started_at",
-        "ended_at", "started_by", "state", "problem", "lost",
-    )  # fmt: skip
-    facts = {name: getattr(meta, name) for name in kept}
+    facts = {
+        name: value for name, value in structs.asdict(meta).items() if name not in ("settings", "records")
+    }
     return {**facts, "bytes": recording.bytes, "records": _recorded(recording)}
 
 

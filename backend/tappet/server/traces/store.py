@@ -29,10 +29,9 @@ _OPEN = 16
 State = Literal["recording", "complete", "interrupted"]
 
 
-class RecordingMeta(Struct, frozen=True):
-    """`recording.json`."""
+class RecordingOrigin(Struct, frozen=True, kw_only=True):
+    """What is known of a recording before its first sample."""
 
-    id: str
     title: str
     comment: str
     trace: str
@@ -40,9 +39,15 @@ class RecordingMeta(Struct, frozen=True):
     runtime_id: str | None
     runtime: str
     project_id: str | None
-    started_at: datetime
     started_by: str
     settings: dict[str, Any]
+
+
+class RecordingMeta(RecordingOrigin, frozen=True, kw_only=True):
+    """`recording.json`."""
+
+    id: str
+    started_at: datetime
     records: list[RecordInfo]
     state: State = "complete"
     ended_at: datetime | None = None
