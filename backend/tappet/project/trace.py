@@ -21,7 +21,7 @@ MOST_POINTS = 1_000_000
 """Samples in the ring of a record."""
 Color = Annotated[str, Field(pattern=r"^(#[0-9a-fA-F]{6})?$")]
 """Empty: chosen by the editor."""
-Finite = Annotated[float, Field(allow_inf_nan=False)]
+Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
 Scale = Literal["auto", "fixed", "scrolling"]
 
 
