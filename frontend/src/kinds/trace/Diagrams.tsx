@@ -291,7 +291,8 @@ function Legend({
       {(data.records.length > 1 || diagram.computed !== null) && <b>{titleOf(diagram, t)}</b>}
       {diagram.channels.map((k) => {
         const layer = own.find(({ channel }) => channel === k);
-        const value = at === null || !layer ? null : valueAt(layer.curves.time, layer.curve.low, at);
+        const last = layer?.curves.time.at(-1) ?? -Infinity;
+        const value = at === null || !layer || at > last ? null : valueAt(layer.curves.time, layer.curve.low, at);
         return (
           <span key={k}>
             <i style={{ background: record.channels[k]!.color || automaticColor(k) }} />

@@ -206,6 +206,7 @@ export default function TraceEditor({ panelId, projectId, objectId }: EditorProp
             label={t('trace.tree')}
             faulty={NO_FAULTS}
             states={state && !showsStored ? state.records.map(({ state: now }) => t(`trace.state.${now}`)) : undefined}
+            active={state?.running}
             onVisible={(nodes) =>
               possible.display === true
                 ? change(changeChannels(data, nodes, (channel) => ({ ...channel, visible: !channel.visible })))

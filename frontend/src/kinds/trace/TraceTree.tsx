@@ -18,13 +18,15 @@ interface TraceTreeProps {
   onDrop?: (record: number, variables: readonly string[]) => void;
   /** Records as what they do now. */
   states?: readonly (string | null)[];
+  /** The controller records now. */
+  active?: boolean;
   faulty: ReadonlySet<string>;
   label: string;
 }
 
 /** Records and their variables (TRC-01): choice of several, Enter opens the settings, Space shows and hides. */
 export function TraceTree(props: TraceTreeProps) {
-  const { data, nodes, onNodes, menu, onOpen, onVisible, onDelete, onDrop, states, faulty, label } = props;
+  const { data, nodes, onNodes, menu, onOpen, onVisible, onDelete, onDrop, states, active, faulty, label } = props;
   const t = useText();
   const list = useRef<HTMLDivElement>(null);
   const all = nodesOf(data);
@@ -115,7 +117,11 @@ export function TraceTree(props: TraceTreeProps) {
             return (
               <div key={key} {...common} aria-level={1} className={styles.recordRow}>
                 <span className={styles.name}>{record.name}</span>
-                {states?.[node.record] && <span className={styles.recordState}>{states[node.record]}</span>}
+                {states?.[node.record] && (
+                  <span className={styles.recordState} data-active={active || undefined}>
+                    {states[node.record]}
+                  </span>
+                )}
               </div>
             );
           }

@@ -1,7 +1,6 @@
 /** The runs that an editor shows: what the controller records now, and stored recordings. */
 import { queryOptions, useQuery } from '@tanstack/react-query';
 import { useEffect, useMemo, useSyncExternalStore } from 'react';
-import { ApiError } from '@/api/client';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import type { TraceData } from '../configuration';
 import { RunData, type RunShape } from './runData';
@@ -41,13 +40,10 @@ export function useTraceState(session: OnlineSession | null, name: string, every
   const codeId = session?.runtime?.code_id ?? null;
   return useQuery({
     queryKey: [...traceKeys.state(runtimeId, name), codeId],
+    // From the list: that the controller does not have it is no failure.
     queryFn: async ({ signal }): Promise<TraceState | null> => {
-      try {
-        return await ask<TraceState>(sourcePath({ kind: 'running', runtimeId, name }), signal);
-      } catch (error) {
-        if (error instanceof ApiError && error.status === 404) return null;
-        throw error;
-      }
+      const all = await ask<TraceState[]>(tracesPath(runtimeId), signal);
+      return all.find((one) => one.name.toLowerCase() === name.toLowerCase()) ?? null;
     },
     enabled: session !== null && session.lostSince === null && name !== '',
     refetchInterval: everyMs,

@@ -47,6 +47,8 @@ async function measured(
 /** The sample that was valid at a moment, exactly, however coarse the picture is. */
 async function valueOf(run: RunData, data: TraceData, ref: ChannelRef, ns: number, signal: AbortSignal) {
   const interval = run.interval(ref.record);
+  const extent = run.extent(ref.record);
+  if (extent === null || ns < extent.min || ns > extent.max + interval) return null;
   const found = await samplesOf(run, data, ref, { min: ns - 3 * interval, max: ns + interval }, 64, signal);
   return found === null ? null : valueAt(found.window.time, found.low, ns);
 }
