@@ -134,6 +134,7 @@ def as_delivered(request: APIRequestContext, address: str) -> None:
     objects = request.get(f"{api}{path}/objects").json()
     application = next(each for each in objects if each["kind"] == "application")
     send("POST", "/runtimes/local/values/unforce", {"expressions": None})
+    send("DELETE", "/runtimes/local/debug/breakpoints")
     send(
         "POST",
         f"{path}/applications/{application['id']}/download",

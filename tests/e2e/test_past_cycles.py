@@ -12,6 +12,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from .conftest import Server, new_profile, start_page
 from .workbench import (
     add_line,
+    answer_to,
     choose_menu,
     log_in,
     open_object,
@@ -135,8 +136,10 @@ def test_an_exception_opens_the_bar_and_the_cycle_before_is_a_step_away(page: Pa
 
 
 def test_a_recording_is_kept_looked_into_and_replayed(page: Page) -> None:
-    row, _ = _to_the_fault(page)
-    choose_menu(page, "Debug", "Save Past Cycles")
+    _to_the_fault(page)
+    with answer_to(page, "/recordings") as answer:
+        choose_menu(page, "Debug", "Save Past Cycles")
+    assert answer.value.ok, answer.value.text()
     tab = page.locator(".dv-tab").filter(has_text="Recording 20")
     expect(tab).to_be_visible()
     held = page.get_by_role("tabpanel").filter(has_text="Look into It")
@@ -147,6 +150,7 @@ def test_a_recording_is_kept_looked_into_and_replayed(page: Page) -> None:
     held.get_by_role("button", name="Look into It").click()
     bar = _bar(page)
     expect(bar).to_be_visible()
+    row = watch(page, CAPS)  # the call stack came before it
     expect(_value(row)).to_contain_text("1234")
     expect(page.get_by_role("toolbar").get_by_role("button", name="Start")).to_have_attribute(
         "aria-disabled", "true"

@@ -12,8 +12,15 @@ from tappet.iec.task import Task
 from tappet.runtime.client import RuntimeClient, RuntimeRefused
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.flight_deltas import ENTRY_SIZE, FlightError
+from tappet.runtime.flight_recording import read_recording
 from tappet.runtime.local import ApplicationException, LocalRuntime
-from tappet.runtime.operations.flight import FreezeFlight, GetFlightStatus, ListFlightCycles, ReadFlight
+from tappet.runtime.operations.flight import (
+    FreezeFlight,
+    GetFlightStatus,
+    ListFlightCycles,
+    ReadFlight,
+    SaveFlight,
+)
 from tappet.runtime.operations.life_cycle import Start
 from tappet.runtime.operations.values import Read
 from tappet.runtime.posix import write_memory
@@ -452,6 +459,8 @@ async def test_over_the_wire() -> None:
             for cycle, _ in history
         ]
         assert values == list(range(1, len(values) + 1))
+        recording = read_recording(await client.call(SaveFlight()))
+        assert [(one.cycle, one.timestamp_ns) for one in recording.cycles] == history
         status = await client.call(GetFlightStatus())
         assert (status.first_cycle, status.last_cycle) == (history[0][0], history[-1][0])
         assert (status.first_timestamp_ns, status.last_timestamp_ns) == (history[0][1], history[-1][1])

@@ -12,7 +12,7 @@ import { openTimeBar, timeBar } from './store';
 
 /** Keeps what the flight recorder of a runtime holds as an object of the application, and opens it. */
 export async function saveRecording(projectId: string, applicationId: string, runtimeId: string): Promise<void> {
-  const name = t('past.savedName', { time: secondText(new Date().toISOString()).replaceAll(':', '.') });
+  const name = t('past.savedName', { time: secondText(new Date().toISOString()).replaceAll(':', '-') });
   const made = await api.post('/api/v1/projects/{project_id}/applications/{application_id}/recordings', {
     params: { path: { project_id: projectId, application_id: applicationId } },
     body: { runtime_id: runtimeId, name },
