@@ -222,3 +222,55 @@ def test_a_date_far_out_is_refused(text: str):
 @given(st.text(st.characters(max_codepoint=255), max_size=20))
 def test_strings_read_back(text: str):
     assert literals.parse_string(literals.format_string(text, False), False) == text
+
+
+LONG = """
+PROGRAM PLC_PRG
+VAR a : ARRAY [-5..2499] OF INT; m : ARRAY [1..40, -1..98] OF BYTE; s : ARRAY [0..9] OF INT; n : INT; END_VAR
+END_PROGRAM
+"""
+
+
+@pytest.fixture(scope="module")
+def long() -> SymbolMap:
+    return build(LONG).symbols
+
+
+@pytest.mark.parametrize(
+    ("path", "indices"),
+    [
+        ("PLC_PRG.a", [(i,) for i in range(-5, 2500)]),
+        ("PLC_PRG.m", [(i, j) for i in range(1, 41) for j in range(-1, 99)]),
+    ],
+)
+def test_long_arrays_are_listed_in_parts(long: SymbolMap, path: str, indices: list[tuple[int, ...]]) -> None:
+    """Every element once, in order, in lists of at most 1000; each leads where its path leads."""
+    parts = long.children(path)
+    assert all(not part.leaf and part.kind == "part" for part in parts)
+    found = [child for part in parts for child in long.children(part.path)]
+    assert max(len(long.children(part.path)) for part in parts) == 1000
+    assert [child.path for child in found] == [f"{path}[{', '.join(map(str, i))}]" for i in indices]
+    offsets = [long.resolve(child.path).offset for child in found]
+    assert offsets == sorted(offsets)
+
+
+def test_any_part_of_an_array_can_be_listed(long: SymbolMap) -> None:
+    assert [c.name for c in long.children("plc_prg.a[ 7 .. 9 ]")] == ["[7]", "[8]", "[9]"]
+    assert [c.name for c in long.children("PLC_PRG.m[1, 98..2, 0]")] == ["[1, 98]", "[2, -1]", "[2, 0]"]
+    assert [c.name for c in long.children("PLC_PRG.s[9..9]")] == ["[9]"]
+    assert [c.name for c in long.children("PLC_PRG.a[-5..1994]")] == ["[-5..994]", "[995..1994]"]
+
+
+@pytest.mark.parametrize(
+    ("path", "said"),
+    [
+        ("PLC_PRG.a[0..2500]", "index 2500 is outside -5..2499"),
+        ("PLC_PRG.a[9..8]", "first index is behind"),
+        ("PLC_PRG.m[1..2]", "write indices of the array"),
+        ("PLC_PRG.a[x..2]", "write indices of the array"),
+        ("PLC_PRG.n[0..1]", "has no elements"),
+    ],
+)
+def test_a_part_that_does_not_exist_is_refused(long: SymbolMap, path: str, said: str) -> None:
+    with pytest.raises(SymbolError, match=said):
+        long.children(path)

@@ -18,7 +18,7 @@ from tappet.runtime.errors import NoApplicationError, NoTraceError, PlcError
 from tappet.runtime.exception_report import CallFrame, ExceptionReport
 from tappet.runtime.flight import FlightStatus
 from tappet.runtime.flight_recording import FlightRecording
-from tappet.runtime.forces import Force, PlacedValue
+from tappet.runtime.forces import NOBODY, Force, Origin, PlacedValue
 from tappet.runtime.image import ImageMemory
 from tappet.runtime.logbook import LogEntry
 from tappet.runtime.monitoring import Load, LoadHistory
@@ -92,6 +92,7 @@ class FakePlc:
     symbol_map: SymbolMap | None = field(default_factory=symbol_map)
     image: bytearray = field(default_factory=lambda: bytearray(IMAGE_SIZE))
     forced: dict[tuple[int, int | None], bytes] = field(default_factory=dict)
+    origins: dict[tuple[int, int | None], Origin] = field(default_factory=dict)
     report: ExceptionReport | None = None
     downloads: list[tuple[bytes, str]] = field(default_factory=list)
     clients: list[FakeClient] = field(default_factory=list)
@@ -218,9 +219,10 @@ class FakePlc:
                 self.image[offset] &= ~(1 << bit)
         return lambda: True
 
-    def force(self, values: Sequence[PlacedValue]) -> None:
+    def force(self, values: Sequence[PlacedValue], origin: Origin = NOBODY) -> None:
         self.write(values)
         self.forced |= {(value.place.offset, value.place.bit): value.data for value in values}
+        self.origins |= {(value.place.offset, value.place.bit): origin for value in values}
         self.notify("forces")
 
     def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
@@ -232,7 +234,10 @@ class FakePlc:
         symbols = self._need()
         places = [Place(offset, len(data), bit) for (offset, bit), data in self.forced.items()]
         return [
-            (Force(PlacedValue(place, data), data), path_at(symbols, place))
+            (
+                Force(PlacedValue(place, data), data, self.origins[place.offset, place.bit]),
+                path_at(symbols, place),
+            )
             for place, data in zip(places, self.forced.values(), strict=True)
         ]
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
+
 import pytest
 from fake_plc import FakePlc, symbol_map
 from fastapi import FastAPI
@@ -140,6 +142,23 @@ def test_force_and_unforce(admin: TestClient, url: str, plc: FakePlc) -> None:
     assert admin.get(f"{url}/forces").json()["values"] == []
     entries = [e for e in admin.get("/api/v1/audit").json() if e["action"] == "unforce"]
     assert {e["subject"] for e in entries} == {"PLC_PRG.nCount", "PLC_PRG.bStart", "%QX0.3"}
+
+
+def test_a_force_says_where_it_comes_from(admin: TestClient, url: str, plc: FakePlc) -> None:
+    """WAT-08 and more: who, from where, when, and what the variable held before."""
+    begun = datetime.now(UTC)
+    for source, path, value in ((None, "PLC_PRG.nCount", 77), ("workbench", "PLC_PRG.bStart", True)):
+        order = {"values": [{"expression": path, "value": value}]} | ({"source": source} if source else {})
+        assert admin.post(f"{url}/values/force", json=order).status_code == 200
+    found = {v["expression"]: v for v in admin.get(f"{url}/forces").json()["values"]}
+    (name,) = {v["user"] for v in found.values()}
+    assert name in {e["username"] for e in admin.get("/api/v1/audit").json() if e["action"] == "force"}
+    assert (found["PLC_PRG.nCount"]["source"], found["PLC_PRG.bStart"]["source"]) == ("api", "workbench")
+    assert found["PLC_PRG.nCount"]["literal"] == "77"
+    for value in found.values():
+        assert begun <= datetime.fromisoformat(value["at"]) <= datetime.now(UTC)
+    wrong = {"values": [{"expression": "PLC_PRG.nCount", "value": 1}], "source": "somewhere"}
+    assert admin.post(f"{url}/values/force", json=wrong).status_code == 422
 
 
 def test_operators_write_and_viewers_do_not(

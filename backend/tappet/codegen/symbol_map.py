@@ -5,13 +5,19 @@ Plain data without the compiler: a runtime or a browser-side tool needs nothing 
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from msgspec import Struct, field
 
 from tappet.codegen import values
 from tappet.codegen.symbol_types import Bit, MemberInfo, TypeIndex, TypeInfo
+
+MOST_ELEMENTS = 1000
+"""Elements of an array in one list; of longer ones its parts are listed first."""
+_PART = re.compile(r"^\s*(.+)\[([^\[\]]*?)\.\.([^\[\]]*)\]\s*$", re.DOTALL)
+"""A part of an array: `a[1000..1999]`, `m[0, 0..4, 99]`."""
 
 
 class SymbolError(ValueError):
@@ -136,9 +142,11 @@ class SymbolMap(Struct):
         if key in self.roots:
             root = self.roots[key]
             return self._members(root.name, self.types[root.type])
+        if (part := _PART.match(path)) is not None:
+            return self._part_of_array(self.resolve(part[1]), part[2], part[3])
         ref = self.resolve(path)
         if ref.type.kind == "array":
-            return self._elements(ref)
+            return self._elements(ref, 0, math.prod(high - low + 1 for low, high in ref.type.bounds))
         return self._members(ref.path, ref.type)
 
     def parts(self, number: int) -> Iterator[tuple[int, int]]:
@@ -199,14 +207,53 @@ class SymbolMap(Struct):
         section, flags = (member.section, member.flags) if member else ("VAR", ())
         return Child(name, path, info.name, info.kind, info.leaf, section, flags)
 
-    def _elements(self, ref: VarRef) -> list[Child]:
-        """Elements of an array, or of its first dimension's slices flattened, at most 10,000."""
+    def _elements(self, ref: VarRef, first: int, end: int) -> list[Child]:
+        """Elements of an array by their number in memory; of many the parts that they stand in."""
         assert ref.type.elem is not None
-        indices: list[tuple[int, ...]] = [()]
-        for low, high in ref.type.bounds:
-            indices = [(*done, i) for done in indices for i in range(low, high + 1)][:10_000]
-        texts = (", ".join(map(str, index)) for index in indices)
-        return [self._child(f"[{t}]", f"{ref.path}[{t}]", ref.type.elem) for t in texts]
+        bounds = ref.type.bounds
+        if end - first <= MOST_ELEMENTS:
+            texts = (_index_text(bounds, number) for number in range(first, end))
+            return [self._child(f"[{t}]", f"{ref.path}[{t}]", ref.type.elem) for t in texts]
+        size = MOST_ELEMENTS
+        while (end - first) > size * MOST_ELEMENTS:
+            size *= MOST_ELEMENTS
+        parts = ((at, min(at + size, end) - 1) for at in range(first, end, size))
+        names = (f"[{_index_text(bounds, low)}..{_index_text(bounds, high)}]" for low, high in parts)
+        element = self.types[ref.type.elem].name
+        return [Child(n, f"{ref.path}{n}", f"ARRAY {n} OF {element}", "part", False) for n in names]
+
+    def _part_of_array(self, ref: VarRef, low: str, high: str) -> list[Child]:
+        """The elements `a[low..high]`; SymbolError where the array has no such ones."""
+        if ref.type.kind != "array":
+            raise SymbolError(f"'{ref.path}' is {ref.type.name} and has no elements")
+        first, last = (_number_of(ref, text) for text in (low, high))
+        if first > last:
+            raise SymbolError(f"'{ref.path}[{low}..{high}]': the first index is behind the last one")
+        return self._elements(ref, first, last + 1)
+
+
+def _index_text(bounds: Sequence[tuple[int, int]], number: int) -> str:
+    """Indices of an element, such as `3` or `0, 7`; the last one counts fastest."""
+    indices: list[int] = []
+    for low, high in reversed(bounds):
+        number, rest = divmod(number, high - low + 1)
+        indices.append(low + rest)
+    return ", ".join(map(str, reversed(indices)))
+
+
+def _number_of(ref: VarRef, text: str) -> int:
+    """Number of an element in memory from its indices."""
+    parts = [part.strip() for part in text.split(",")]
+    bounds = ref.type.bounds
+    shown = ", ".join(f"{low}..{high}" for low, high in bounds)
+    if len(parts) != len(bounds) or not all(re.fullmatch(r"-?\d{1,19}", part) for part in parts):
+        raise SymbolError(f"'{ref.path}[{text}]': write indices of the array [{shown}]")
+    number = 0
+    for part, (low, high) in zip(parts, bounds, strict=True):
+        if not low <= int(part) <= high:
+            raise SymbolError(f"'{ref.path}[{text}]': index {part} is outside {low}..{high}")
+        number = number * (high - low + 1) + int(part) - low
+    return number
 
 
 def _tokenize(text: str) -> list[str]:

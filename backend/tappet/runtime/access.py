@@ -14,7 +14,7 @@ from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.flight import FlightRecorder, FlightStatus
 from tappet.runtime.flight_recording import FlightRecording
 from tappet.runtime.flight_save import take_recording
-from tappet.runtime.forces import Force, PlacedValue
+from tappet.runtime.forces import NOBODY, Force, Origin, PlacedValue
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.places import path_at
 from tappet.runtime.recorder import Recorder, RecorderSpec
@@ -103,10 +103,10 @@ class ApplicationAccess:
 
         return done
 
-    def force(self, values: Sequence[PlacedValue]) -> None:
+    def force(self, values: Sequence[PlacedValue], origin: Origin = NOBODY) -> None:
         """Hold variables at values until released."""
         with self._lock:
-            self._need().force(values)
+            self._need().force(values, origin)
             self._notify("forces")
 
     def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:

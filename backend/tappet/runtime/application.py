@@ -16,7 +16,7 @@ from tappet.runtime.executive.records import Block
 from tappet.runtime.faults import RawFault
 from tappet.runtime.files import ApplicationFiles
 from tappet.runtime.flight import FlightSettings, make_flight
-from tappet.runtime.forces import Force, ForceTable, PlacedValue, ValueList
+from tappet.runtime.forces import Force, ForceTable, Origin, PlacedValue, ValueList
 from tappet.runtime.heap import ApplicationHeap
 from tappet.runtime.image import Image
 from tappet.runtime.logbook import Logbook
@@ -381,12 +381,12 @@ class LoadedApplication(ApplicationCode):
 
     # -- forces ------------------------------------------------------------------------------------------
 
-    def force(self, values: Sequence[PlacedValue]) -> None:
+    def force(self, values: Sequence[PlacedValue], origin: Origin) -> None:
         """Hold variables at values, at begin and end of every cycle, until released."""
         for value in values:
             self._check(value.place)
         for value in values:
-            self.forces.set(value, self._present(value.place))
+            self.forces.set(value, self._present(value.place), origin)
         self.publish_forces()
 
     def _present(self, place: Place) -> bytes:

@@ -68,11 +68,26 @@ def _native(value: PlacedValue) -> bytes:
 
 
 @dataclass(frozen=True, slots=True)
+class Origin:
+    """Who has forced a variable, by what, and when."""
+
+    user: str = ""
+    source: str = ""
+    """Of the order: the workbench, the API, a command."""
+    at_ns: int = 0
+    """Unix time."""
+
+
+NOBODY = Origin()
+
+
+@dataclass(frozen=True, slots=True)
 class Force:
-    """One forced variable, and what it held before."""
+    """One forced variable, what it held before, and where the force comes from."""
 
     value: PlacedValue
     before: bytes
+    origin: Origin = NOBODY
 
 
 class ForceTable:
@@ -92,12 +107,13 @@ class ForceTable:
         """What the executive stores at begin and end of each cycle."""
         return [f.value for f in self._forces.values()]
 
-    def set(self, value: PlacedValue, before: bytes) -> None:
+    def set(self, value: PlacedValue, before: bytes, origin: Origin) -> None:
         """Force a variable, or give a forced one another value; the value before the first force is kept."""
         key = (value.place.offset, value.place.bit)
         known = self._forces.get(key)
         same = known is not None and known.value.place == value.place
-        self._forces[key] = Force(value, known.before if known is not None and same else before)
+        kept = known.before if known is not None and same else before
+        self._forces[key] = Force(value, kept, origin)
 
     def release(self, places: Iterable[tuple[int, int | None]] | None) -> list[Force]:
         """Take forces off, all with None; returns those that were there."""
@@ -112,7 +128,7 @@ class ForceTable:
         gone = [f.value.place for f in self._forces.values() if moved[f.value.place] is None]
         kept = [(moved[f.value.place], f) for f in self._forces.values()]
         self._forces = {
-            (place.offset, place.bit): Force(PlacedValue(place, f.value.data), f.before)
+            (place.offset, place.bit): Force(PlacedValue(place, f.value.data), f.before, f.origin)
             for place, f in kept
             if place is not None
         }

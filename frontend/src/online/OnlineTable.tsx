@@ -16,6 +16,8 @@ import { useGridSelection, type GridSelection } from '@/ui/grid/useGridSelection
 import type { MenuEntry } from '@/ui/Menu';
 import { ContextMenu } from '@/ui/Menu';
 import type { OnlineSession } from '@/workbench/onlineSession';
+import type { NumberFormat } from '@/text/settings';
+import { ComputedCell } from './ComputedCell';
 import { copyChosen } from './copyRows';
 import { NameCell } from './NameCell';
 import styles from './OnlineTable.module.css';
@@ -23,7 +25,7 @@ import { PreparedCell, PreparedEditor } from './PreparedCell';
 import { refusePast } from './past/refuse';
 import { symbolKey } from './rowMenu';
 import { togglePrepared } from './toggle';
-import { flatten, isExpandable, watchedExpressions, type OnlineRoot, type OnlineRow } from './treeRows';
+import { flatten, isExpandable, isVariable, watchedExpressions, type OnlineRoot, type OnlineRow } from './treeRows';
 import { useItems } from './useItems';
 import { useChildren } from './useChildren';
 import { useWatched } from './useLive';
@@ -34,6 +36,8 @@ import { ValuePainter } from './valuePainter';
 export interface OnlineTableHandle {
   /** The row and the column of the cursor; null where there is none. */
   cursor: () => { row: OnlineRow; column: string } | null;
+  /** All rows in order, also those beyond the screen. */
+  rows: () => readonly OnlineRow[];
   focus: () => void;
 }
 
@@ -49,6 +53,10 @@ export interface OnlineTableProps {
   empty?: ReactNode;
   /** Called when the table gets the focus, with a way to ask for the selected expressions. */
   onFocus?: (chosen: () => readonly string[]) => void;
+  /** Number format of a row; undefined: that of the editors. Should stay the same function. */
+  formatOf?: (row: OnlineRow) => NumberFormat | undefined;
+  /** Cells of columns that the table does not know. Should stay the same function. */
+  extraCell?: (row: OnlineRow, column: string) => ReactNode;
   /** Whether its panel is in front: no value is asked for in one that is not. */
   visible?: boolean;
   handle?: Ref<OnlineTableHandle>;
@@ -56,7 +64,7 @@ export interface OnlineTableProps {
 
 /** Variables with type, value and prepared value; structured ones open. The table of watch lists and declarations. */
 export function OnlineTable(props: OnlineTableProps) {
-  const { session, roots, columns } = props;
+  const { session, roots, columns, formatOf, extraCell } = props;
   const t = useText();
   const runtimeId = session?.runtimeId ?? null;
   const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
@@ -64,7 +72,10 @@ export function OnlineTable(props: OnlineTableProps) {
   const onScreen = useRef<OnScreenHandle>(null);
   const [painter] = useState(() => new ValuePainter());
   const expressions = useMemo(
-    () => roots.filter((r) => r.kind === undefined && r.valueless !== true).map((r) => r.expression),
+    () =>
+      roots
+        .filter((r) => r.kind === undefined && r.valueless !== true && r.computed === undefined)
+        .map((r) => r.expression),
     [roots],
   );
   const items = useItems(runtimeId, session?.runtime?.code_id ?? null, expressions);
@@ -85,6 +96,7 @@ export function OnlineTable(props: OnlineTableProps) {
       const column = columns[selection.cursor?.column ?? -1]?.id;
       return row === undefined || column === undefined ? null : { row, column };
     },
+    rows: () => rows,
     focus: () => grid.current?.focus(),
   }));
 
@@ -104,7 +116,7 @@ export function OnlineTable(props: OnlineTableProps) {
     if (row === undefined) return;
     if (columnOf(cell) === 'expression' && row.depth === 0 && props.expressionEditor) setEditing(cell);
     else if (columnOf(cell) === 'expression' && isExpandable(row)) toggleOpen(row);
-    else if (runtimeId !== null && row.valueless !== true && !isExpandable(row)) {
+    else if (runtimeId !== null && isVariable(row)) {
       const column = columns.findIndex((c) => c.id === 'prepared');
       if (refusePast(runtimeId)) return;
       if (cell.initial === undefined && togglePrepared(runtimeId, row.expression)) return;
@@ -130,7 +142,7 @@ export function OnlineTable(props: OnlineTableProps) {
   const entries = (): readonly MenuEntry[] => {
     const { cursor } = selection;
     const row = rows[cursor?.row ?? -1];
-    const fixed = row === undefined || row.valueless === true || isExpandable(row);
+    const fixed = row === undefined || !isVariable(row);
     const prepareEntry: MenuEntry = {
       kind: 'item',
       key: 'prepare',
@@ -155,10 +167,19 @@ export function OnlineTable(props: OnlineTableProps) {
           return <span className={styles.type}>{row.type}</span>;
         case 'value':
           if (row.expression === '') return null;
+          if (row.computed !== undefined)
+            return <ComputedCell runtimeId={runtimeId} computed={row.computed} lost={lost} format={formatOf?.(row)} />;
           return row.valueless === true ? (
             <span className={styles.unknown}>???</span>
           ) : (
-            <ValueCell runtimeId={runtimeId} row={row} lost={lost} painter={painter} index={index} />
+            <ValueCell
+              runtimeId={runtimeId}
+              row={row}
+              lost={lost}
+              painter={painter}
+              index={index}
+              format={formatOf?.(row)}
+            />
           );
         case 'prepared':
           return <PreparedCell runtimeId={runtimeId} row={row} />;
@@ -167,10 +188,10 @@ export function OnlineTable(props: OnlineTableProps) {
         case 'comment':
           return row.comment === undefined ? null : <span className={styles.muted}>{row.comment.split('\n')[0]}</span>;
         default:
-          return null;
+          return extraCell?.(row, column.id) ?? null;
       }
     },
-    [rows, runtimeId, lost, toggleOpen, painter],
+    [rows, runtimeId, lost, toggleOpen, painter, formatOf, extraCell],
   );
   const hintOf = useCallback((index: number, column: GridColumn) => hint(t, rows[index], column.id), [t, rows]);
   const level = useCallback((index: number) => (rows[index]?.depth ?? 0) + 1, [rows]);

@@ -1,5 +1,5 @@
 import { useLayoutEffect, useRef } from 'react';
-import { useEditorSettings } from '@/text/settings';
+import { useEditorSettings, type NumberFormat } from '@/text/settings';
 import { useText } from '@/i18n';
 import type { LiveValue } from './board';
 import { channelOf } from './connections';
@@ -19,13 +19,15 @@ interface ValueCellProps {
   /** What paints the values of the table, and the row's number in it; without one the cell shows its value itself. */
   painter?: ValuePainter;
   index?: number;
+  /** Number format of the row; undefined: that of the editors. */
+  format?: NumberFormat;
 }
 
 /** Pixels that the marks in front of a value take, with the gap behind them; the style sheet has the same. */
 const MARK_PX = { constant: 42, forced: 20 };
 
 /** The live value of a row: forced ones carry an F, constants their mark, changed ones glow for a second. */
-export function ValueCell({ runtimeId, row, lost, painter, index = 0 }: ValueCellProps) {
+export function ValueCell({ runtimeId, row, lost, painter, index = 0, format }: ValueCellProps) {
   const t = useText();
   const item = useLiveItem(runtimeId, row.expression);
   const forced = useForced(runtimeId, row.expression);
@@ -49,6 +51,7 @@ export function ValueCell({ runtimeId, row, lost, painter, index = 0 }: ValueCel
         inset={(constant ? MARK_PX.constant : 0) + (forced ? MARK_PX.forced : 0)}
         forced={forced}
         lost={lost}
+        chosen={format}
       />
     </>
   );
@@ -62,12 +65,14 @@ interface LiveTextProps {
   inset: number;
   forced: boolean;
   lost: boolean;
+  chosen: NumberFormat | undefined;
 }
 
 /** Writes each value into the page or the table's canvas: React draws a cell once, not ten times a second. */
-function LiveText({ runtimeId, expression, painter, index, inset, forced, lost }: LiveTextProps) {
+function LiveText({ runtimeId, expression, painter, index, inset, forced, lost, chosen }: LiveTextProps) {
   const t = useText();
-  const format = useEditorSettings((settings) => settings.numberFormat);
+  const general = useEditorSettings((settings) => settings.numberFormat);
+  const format = chosen ?? general;
   const frame = useRef<HTMLSpanElement>(null);
   const board = channelOf(runtimeId)?.board ?? null;
 

@@ -1,7 +1,7 @@
 /** Chosen rows of an online table for the clipboard. */
 import { api } from '@/api/client';
 import { guard } from '@/ui/notices';
-import { isExpandable, type OnlineRow } from './treeRows';
+import { isVariable, type OnlineRow } from './treeRows';
 
 /** One row a line with tabs between, as tables of other programs take it: path, type, exact value. */
 export function rowsAsText(rows: readonly OnlineRow[], literals: ReadonlyMap<string, string | null>): string {
@@ -17,9 +17,7 @@ export function rowsAsText(rows: readonly OnlineRow[], literals: ReadonlyMap<str
  * The values are read for it, all in one cycle: those of rows beyond the screen are not known here.
  */
 export async function copyRows(runtimeId: string | null, rows: readonly OnlineRow[]): Promise<void> {
-  const expressions = rows
-    .filter((row) => row.expression !== '' && row.valueless !== true && !isExpandable(row))
-    .map((row) => row.expression);
+  const expressions = rows.filter((row) => row.expression !== '' && isVariable(row)).map((row) => row.expression);
   const literals = new Map<string, string | null>();
   if (runtimeId !== null && expressions.length > 0) {
     const { values } = await api.post('/api/v1/runtimes/{runtime_id}/values/read', {

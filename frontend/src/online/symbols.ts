@@ -12,7 +12,13 @@ export type SymbolChild = Readonly<Schemas['Symbol']>;
 
 export type SymbolSource = (path: string) => Promise<readonly SymbolChild[]>;
 
-const ROOT_KINDS = new Set(['program', 'gvl']);
+/** What has components of its own, other than those of its type. */
+const ROOT_KINDS = new Set(['program', 'gvl', 'part']);
+
+/** The array that a part `a[1000..1999]` is of; any other path as it is. */
+export function wholeArray(path: string): string {
+  return path.replace(/\[[^[\]]*\.\.[^[\]]*\]$/, '');
+}
 
 export class SymbolTree {
   private readonly byType = new Map<string, Promise<readonly SymbolChild[]>>();
@@ -36,15 +42,16 @@ export class SymbolTree {
     if (own === undefined) return this.remember(await this.source(path));
     if (own.leaf) return [];
     const key = ROOT_KINDS.has(own.kind) ? `${own.kind} ${own.path}` : own.type;
+    const above = wholeArray(own.path);
     let asked = this.byType.get(key);
     if (asked === undefined) {
       asked = this.source(own.path).then((children) =>
-        children.map((child) => ({ ...child, path: child.path.slice(own.path.length) })),
+        children.map((child) => ({ ...child, path: child.path.slice(above.length) })),
       );
       this.byType.set(key, asked);
       asked.catch(() => this.byType.delete(key));
     }
-    return this.remember((await asked).map((child) => ({ ...child, path: own.path + child.path })));
+    return this.remember((await asked).map((child) => ({ ...child, path: above + child.path })));
   }
 
   /** Paths of all instances of a function block or structure type, in order of the tree; at most `most`. */

@@ -1,5 +1,6 @@
 /** Rows of an online table: roots and, where opened, their components. Pure functions. */
-import type { SymbolChild } from './symbols';
+import type { Computed } from './computed';
+import { wholeArray, type SymbolChild } from './symbols';
 
 export interface OnlineRoot {
   /** Stable name of the row. */
@@ -19,6 +20,8 @@ export interface OnlineRoot {
   readonly bookmarked?: boolean;
   /** There is no value to ask for: a local of a function, an instance that is not chosen. */
   readonly valueless?: boolean;
+  /** The value is computed from those of variables. */
+  readonly computed?: Computed;
 }
 
 export interface OnlineRow extends OnlineRoot {
@@ -30,7 +33,7 @@ export interface OnlineRow extends OnlineRoot {
 /** Components by upper-case path, as far as they have been read. */
 export type ChildrenByPath = ReadonlyMap<string, readonly SymbolChild[]>;
 
-const COMPOUND = new Set(['array', 'struct', 'union', 'fb', 'program', 'gvl']);
+const COMPOUND = new Set(['array', 'part', 'struct', 'union', 'fb', 'program', 'gvl']);
 
 export function isExpandable(row: {
   readonly kind?: string;
@@ -54,7 +57,7 @@ export function flatten(
     rows.push({ ...item, depth, root, open: expandable ? opened : undefined });
     if (!opened) return;
     for (const child of children.get(item.expression.toUpperCase()) ?? []) {
-      const path = item.expression + child.path.slice(child.path.length - suffixLength(child));
+      const path = wholeArray(item.expression) + child.path.slice(child.path.length - suffixLength(child));
       add({ ...child, key: `${item.key}/${child.name}`, expression: path, label: child.name }, depth + 1, root);
     }
   };
@@ -72,5 +75,10 @@ export function watchedExpressions(rows: readonly OnlineRow[], first: number, la
   return rows
     .slice(Math.max(0, first), last + 1)
     .filter((row) => row.valueless !== true && row.expression !== '' && row.leaf !== false)
-    .map((row) => row.expression);
+    .flatMap((row) => row.computed?.operands ?? [row.expression]);
+}
+
+/** Whether the row shows a variable that may be written. */
+export function isVariable(row: OnlineRow): boolean {
+  return row.valueless !== true && row.computed === undefined && !isExpandable(row);
 }

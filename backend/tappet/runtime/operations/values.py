@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from msgspec import Meta, Struct
 
 from tappet.codegen.symbol_types import Bit
-from tappet.runtime.forces import PlacedValue
+from tappet.runtime.forces import Origin, PlacedValue
 from tappet.runtime.operations.declaration import (
     MAX_ITEMS,
     Offset,
@@ -16,6 +17,7 @@ from tappet.runtime.operations.declaration import (
     Places,
     Session,
     SessionOperation,
+    Text,
     Values,
 )
 from tappet.runtime.places import Place
@@ -28,13 +30,18 @@ _POLL_S = 0.001
 
 
 class ForcedValue(Struct, frozen=True):
-    """A forced variable: its place, the forced bytes, the bytes before, and its path when it has one."""
+    """A forced variable: its place, the forced bytes, the bytes before, its path when it has one, and who has
+    forced it, by what and when.
+    """
 
     offset: int
     bit: int | None
     data: bytes
     before: bytes
     path: str | None
+    user: str = ""
+    source: str = ""
+    at_ns: int = 0
 
 
 class Read(Operation[list[bytes]], frozen=True):
@@ -72,10 +79,12 @@ class Force(Operation[None], frozen=True):
 
     op: ClassVar[str] = "force"
     values: Values
+    user: Text = ""
+    source: Text = ""
 
     def run(self, plc: SoftPlc) -> None:
         """From the next cycle on."""
-        plc.force(_placed(self.values))
+        plc.force(_placed(self.values), Origin(self.user, self.source, time.time_ns()))
 
 
 class Unforce(Operation[int], frozen=True):
@@ -98,9 +107,12 @@ class ListForces(Operation[list[ForcedValue]], frozen=True):
     def run(self, plc: SoftPlc) -> list[ForcedValue]:
         """In the order in which they were set."""
         return [
-            ForcedValue(f.value.place.offset, f.value.place.bit, f.value.data, f.before, path)
+            ForcedValue(
+                f.value.place.offset, f.value.place.bit, f.value.data, f.before, path,
+                f.origin.user, f.origin.source, f.origin.at_ns,
+            )
             for f, path in plc.forces()
-        ]
+        ]  # fmt: skip
 
 
 def _placed(rows: list[tuple[int, bytes, int | None]]) -> list[PlacedValue]:

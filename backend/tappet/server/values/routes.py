@@ -13,7 +13,7 @@ from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.spoken import LanguageDep, in_language
 from tappet.server.values import service as values
 from tappet.server.values.service import Written
-from tappet.server.values.shapes import Forces, ReadOrder, UnforceOrder, Values, WriteOrder
+from tappet.server.values.shapes import ForceOrder, Forces, ReadOrder, UnforceOrder, Values, WriteOrder
 
 router = Router(prefix="/runtimes/{runtime_id}", tags=["values"])
 
@@ -48,11 +48,12 @@ async def write_values(
 @router.post("/values/force")
 async def force_values(
     act: Annotated[ActRecord, audited("force", Role.OPERATOR, quoted=True)],
-    body: WriteOrder,
+    body: ForceOrder,
     link: LinkDep,
 ) -> Forces:
     """Hold variables at values until they are released; answers with all forces."""
-    await values.force(link, body.values, _recording(act, "force", link))
+    begin = _recording(act, "force", link)
+    await values.force(link, body.values, begin, user=act.who.username, source=body.source)
     return Forces(values=await values.forces(link))
 
 

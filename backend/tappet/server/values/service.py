@@ -14,11 +14,12 @@ from tappet.codegen.display import display_text
 from tappet.codegen.symbol_map import SymbolError, SymbolMap, VarRef
 from tappet.lang.nearest import nearest
 from tappet.runtime.operations.flight import ReadFlight
+from tappet.runtime.operations.instants import instant_of
 from tappet.runtime.operations.values import Force, ListForces, Read, Unforce, Write
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink, path_of
 from tappet.server.shapes import InvalidField
-from tappet.server.values.shapes import NewValue, Value
+from tappet.server.values.shapes import ForcedValue, NewValue, Value
 
 MAX_BYTES = 4 * 1024 * 1024
 """Memory read in one request."""
@@ -58,12 +59,14 @@ Begin = Callable[[list[Written]], Awaitable[None]]
 
 async def write(link: RuntimeLink, values: Sequence[NewValue], begin: Begin) -> None:
     """Writes all values at the beginning of one cycle, or none: raises a 422 problem if one is wrong."""
-    await _set(link, values, begin, force=False)
+    await _set(link, values, begin)
 
 
-async def force(link: RuntimeLink, values: Sequence[NewValue], begin: Begin) -> None:
+async def force(
+    link: RuntimeLink, values: Sequence[NewValue], begin: Begin, *, user: str, source: str
+) -> None:
     """Forces all values; raises a 422 problem and forces none if one is wrong."""
-    await _set(link, values, begin, force=True)
+    await _set(link, values, begin, force=(user, source))
 
 
 async def unforce(
@@ -85,8 +88,8 @@ async def unforce(
     await link.refresh()
 
 
-async def forces(link: RuntimeLink) -> list[Value]:
-    """The forced variables with the values they are held at."""
+async def forces(link: RuntimeLink) -> list[ForcedValue]:
+    """The forced variables with the values they are held at, and where the forces come from."""
     symbols = link.loaded_symbols()
     async with link.client() as client:
         forced = await client.call(ListForces())
@@ -94,11 +97,17 @@ async def forces(link: RuntimeLink) -> list[Value]:
     for force in forced:
         path = path_of(force)
         ref = try_resolve(symbols, path)
+        origin: dict[str, Any] = {
+            "user": force.user,
+            "source": force.source,
+            "at": instant_of(force.at_ns) if force.at_ns else None,
+        }
         if isinstance(ref, str):
-            result.append(Value(expression=path, forced=True, error=ref))
+            result.append(ForcedValue(expression=path, forced=True, error=ref, **origin))
         else:
-            value = _value(link, symbols, path, ref, _in_place(ref, force.data))
-            result.append(value.model_copy(update={"forced": True}))
+            value = _value(link, symbols, path, ref, _in_place(ref, force.data)).model_dump()
+            before = _literal(symbols, ref, _in_place(ref, force.before))
+            result.append(ForcedValue(**(value | {"forced": True, "before": before} | origin)))
     return result
 
 
@@ -167,7 +176,10 @@ def json_value(value: Any) -> Any:
 # -- details ------------------------------------------------------------------------------------------
 
 
-async def _set(link: RuntimeLink, values: Sequence[NewValue], begin: Begin, *, force: bool) -> None:
+async def _set(
+    link: RuntimeLink, values: Sequence[NewValue], begin: Begin, *, force: tuple[str, str] | None = None
+) -> None:
+    """Writes values, or forces them with the user and the source of the order."""
     symbols = link.loaded_symbols()
     orders: list[tuple[VarRef, bytes]] = []
     errors: list[InvalidField] = []
@@ -192,8 +204,8 @@ async def _set(link: RuntimeLink, values: Sequence[NewValue], begin: Begin, *, f
         ]
     )
     async with link.client() as client:
-        await (client.call(Force(batch)) if force else client.call(Write(batch)))
-    if force:
+        await (client.call(Write(batch)) if force is None else client.call(Force(batch, *force)))
+    if force is not None:
         await link.refresh()
 
 

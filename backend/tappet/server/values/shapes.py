@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar
+from datetime import datetime
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, JsonValue, StringConstraints
 
@@ -55,6 +56,14 @@ class WriteOrder(Request):
     values: Annotated[list[NewValue], Field(min_length=1, max_length=MAX_EXPRESSIONS)]
 
 
+class ForceOrder(WriteOrder):
+    """Values to force; all or none."""
+
+    source: Literal["workbench", "api"] = Field(
+        default="api", description="What the order comes from; the list of forces shows it."
+    )
+
+
 class UnforceOrder(Request):
     """Forced variables to release; null: all."""
 
@@ -62,7 +71,16 @@ class UnforceOrder(Request):
     restore: bool = Field(default=False, description="Give the variables back what they held before.")
 
 
+class ForcedValue(Value):
+    """A forced variable with the value it is held at, and where the force comes from."""
+
+    before: str | None = Field(default=None, description="What it held before, as IEC literal.")
+    user: str = Field(default="", description="Who has forced it.")
+    source: str = Field(default="", description="workbench or api; empty where it is not known.")
+    at: datetime | None = Field(default=None, description="When it got this value.")
+
+
 class Forces(Reply):
     """The forced variables with the values that are forced."""
 
-    values: list[Value]
+    values: list[ForcedValue]

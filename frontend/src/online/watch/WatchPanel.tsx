@@ -1,21 +1,26 @@
-import { Eye } from 'lucide-react';
-import { useMemo, useState, type DragEvent, type KeyboardEvent } from 'react';
+import { Binary, Eye } from 'lucide-react';
+import { useCallback, useMemo, useRef, useState, type DragEvent, type KeyboardEvent } from 'react';
 import { useObjects } from '@/api/queries';
 import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import type { PanelProps } from '@/workbench/panels';
 import { useActiveSession } from '@/workbench/online/session';
+import { NUMBER_FORMATS } from '@/text/settings';
+import { guard } from '@/ui/notices';
+import { saveBlob } from '@/workbench/downloadFile';
 import { useProject } from '@/project/openProject';
 import { Empty } from '@/ui/Empty';
 import type { MenuEntry } from '@/ui/Menu';
 import { LostBar } from '../LostBar';
 import { onlineColumns } from '../columns';
-import { EXPRESSION_MIME, OnlineTable } from '../OnlineTable';
-import styles from '../OnlineTable.module.css';
+import { parseComputed } from '../computed';
+import { EXPRESSION_MIME, OnlineTable, type OnlineTableHandle } from '../OnlineTable';
+import panel from '../OnlineTable.module.css';
 import type { OnlineRoot, OnlineRow } from '../treeRows';
 import { commonEntries } from '../rowMenu';
 import { useComments } from '../useComments';
 import { ExpressionInput } from './ExpressionInput';
+import { listFrom, listText } from './listFile';
 import {
   addToList,
   moveInList,
@@ -23,33 +28,119 @@ import {
   removeFromList,
   setCurrentList,
   setExpression,
+  setLineFormat,
+  setListOptions,
   useWatchLists,
   type WatchList,
 } from './lists';
+import { differs, literalIn, snapshotsCsv, takeSnapshot, type Snapshot } from './snapshot';
+import { Sparkline } from './Sparkline';
+import { useHistory } from './useHistory';
+import styles from './Watch.module.css';
+import { WatchBar } from './WatchBar';
 
 const NEW = 'new';
+/** Snapshots beside each other; the oldest one makes room. */
+const MOST_SNAPSHOTS = 4;
+
+/** What is no variable: an expression over variables, or a part of an array. */
+function special(expression: string): Partial<OnlineRoot> {
+  if (/\[[^[\]]*\.\.[^[\]]*\]$/.test(expression)) return { kind: 'part', leaf: false };
+  const computed = parseComputed(expression);
+  return computed === null ? {} : { computed, kind: 'computed', leaf: true };
+}
+
+const clockText = (at: Date) => `${at.toLocaleTimeString('en-GB')}.${String(at.getMilliseconds()).padStart(3, '0')}`;
 
 /** One of the watch lists: any variables of the application, structured ones to open (WAT-02 .. WAT-12). */
-export default function WatchPanel({ options, visible }: PanelProps) {
-  const list = options.list as WatchList;
+export default function WatchPanel({ options: props, visible }: PanelProps) {
+  const list = props.list as WatchList;
   const t = useText();
   const session = useActiveSession() ?? null;
   const projectId = useProject((state) => state.projectId);
   const { data: objects } = useObjects(projectId);
   const entries = useWatchLists((state) => state.lists[list]);
   const comments = useComments(projectId);
-  const columns = useMemo(() => onlineColumns(t), [t]);
+  const options = useWatchLists((state) => state.options[list]);
+  const [snapshots, setSnapshots] = useState<readonly Snapshot[]>([]);
+  const table = useRef<OnlineTableHandle>(null);
+  const runtimeId = session?.runtimeId ?? null;
+  const columns = useMemo(() => {
+    const extra = [
+      ...(options.history ? [{ id: 'history', title: t('watch.history'), width: 140 }] : []),
+      ...snapshots.map((one, at) => ({ id: `snapshot${String(at)}`, title: clockText(one.at), width: 130 })),
+    ];
+    const all = onlineColumns(t);
+    return [...all.slice(0, 3), ...extra, ...all.slice(3)];
+  }, [t, options.history, snapshots]);
   const [over, setOver] = useState(false);
 
   const roots = useMemo((): readonly OnlineRoot[] => {
     const known = objects ?? [];
     const filled = entries.map((entry) => {
       const expression = plainExpression(entry.expression, known);
-      return { key: entry.id, label: entry.expression, expression, comment: comments(expression) };
+      return {
+        key: entry.id,
+        label: entry.expression,
+        expression,
+        comment: comments(expression),
+        ...special(expression),
+      };
     });
     // The last line waits for the next expression.
     return [...filled, { key: NEW, label: '', expression: '', leaf: true, valueless: true }];
   }, [entries, objects, comments]);
+
+  const watched = useMemo(
+    () =>
+      roots
+        .filter((root) => root.expression !== '' && root.leaf !== false && !root.computed)
+        .map((root) => root.expression),
+    [roots],
+  );
+  const history = useHistory(runtimeId, watched, options.history && visible !== false);
+  const formats = useMemo(() => new Map(entries.map((entry) => [entry.id, entry.format])), [entries]);
+  const formatOf = useCallback(
+    (row: OnlineRow) => formats.get(roots[row.root]?.key ?? '') ?? options.format ?? undefined,
+    [formats, roots, options.format],
+  );
+  const extraCell = useCallback(
+    (row: OnlineRow, column: string) => {
+      if (column === 'history')
+        return history && row.leaf !== false && row.depth === 0 && watched.includes(row.expression) ? (
+          <Sparkline history={history} name={row.expression} />
+        ) : null;
+      const at = Number(column.replace('snapshot', ''));
+      const snapshot = snapshots[at];
+      if (snapshot === undefined || row.expression === '') return null;
+      const changed = at > 0 && differs(snapshots[at - 1], snapshot, row);
+      return (
+        <span className={styles.snapshot} data-differs={changed || undefined}>
+          {literalIn(snapshot, row)}
+        </span>
+      );
+    },
+    [history, watched, snapshots],
+  );
+  const snap = () =>
+    void guard(async () => {
+      if (runtimeId === null) return;
+      const taken = await takeSnapshot(runtimeId, table.current?.rows() ?? []);
+      setSnapshots((before) => [...before.slice(-(MOST_SNAPSHOTS - 1)), taken]);
+    });
+  const save = (text: string, name: string, type: string) => saveBlob(new Blob([text], { type }), name);
+  const importList = (text: string) => {
+    const listed = listFrom(text);
+    addToList(
+      list,
+      listed.map(({ expression }) => expression),
+    );
+    for (const { expression, format } of listed) {
+      if (format === undefined) continue;
+      const entry = useWatchLists.getState().lists[list].find((one) => one.expression === expression);
+      if (entry) setLineFormat(list, [entry.id], format);
+    }
+  };
 
   const remove = (rows: readonly OnlineRow[]) =>
     removeFromList(
@@ -69,6 +160,25 @@ export default function WatchPanel({ options, visible }: PanelProps) {
   const menu = (rows: readonly OnlineRow[]): MenuEntry[] => [
     ...commonEntries(t, session, rows),
     { kind: 'line', key: 'remove-line' },
+    {
+      kind: 'sub',
+      key: 'format',
+      text: t('online.format'),
+      icon: Binary,
+      entries: [undefined, ...NUMBER_FORMATS].map((format) => ({
+        kind: 'item',
+        key: format ?? 'list',
+        text: format === undefined ? t('watch.formatOfList') : t(`online.format.${format}`),
+        checked: rows.length > 0 && rows.every((row) => formats.get(roots[row.root]?.key ?? '') === format),
+        disabledReason: rows.length > 0 ? null : t('watch.selectLine'),
+        run: () =>
+          setLineFormat(
+            list,
+            rows.map((row) => roots[row.root]?.key ?? ''),
+            format,
+          ),
+      })),
+    },
     {
       kind: 'item',
       key: 'remove',
@@ -98,7 +208,7 @@ export default function WatchPanel({ options, visible }: PanelProps) {
   );
   return (
     <div
-      className={styles.panel}
+      className={panel.panel}
       data-drop={over || undefined}
       onFocusCapture={() => setCurrentList(list)}
       onDragOver={(event) => {
@@ -111,8 +221,23 @@ export default function WatchPanel({ options, visible }: PanelProps) {
       onDrop={onDrop}
     >
       <LostBar session={session} />
+      <WatchBar
+        online={session !== null}
+        empty={entries.length === 0}
+        options={options}
+        snapshots={snapshots.length}
+        onOptions={(changes) => setListOptions(list, changes)}
+        onSnapshot={snap}
+        onForget={() => setSnapshots([])}
+        onCsv={() => save(snapshotsCsv(table.current?.rows() ?? [], snapshots), `watch${String(list)}.csv`, 'text/csv')}
+        onExport={() => save(listText(entries), `watch${String(list)}.txt`, 'text/plain')}
+        onImport={importList}
+      />
       <div>
         <OnlineTable
+          handle={table}
+          formatOf={formatOf}
+          extraCell={extraCell}
           label={t('watch.title', { number: list })}
           session={session}
           roots={roots}
@@ -124,7 +249,7 @@ export default function WatchPanel({ options, visible }: PanelProps) {
           empty={<Empty icon={Eye} title={t('watch.empty')} />}
         />
         {entries.length === 0 && (
-          <div className={styles.hint}>
+          <div className={panel.hint}>
             <Empty icon={Eye} title={t('watch.empty')} text={t('watch.emptyText')} />
           </div>
         )}
@@ -141,5 +266,5 @@ function droppedExpressions(event: DragEvent, objects: readonly ObjectSummary[])
     .getData('text/plain')
     .split(/\r?\n/)
     .map((line) => plainExpression(line, objects))
-    .filter((line) => /^[.%A-Za-z_][\w.[\],\s%^-]*$/.test(line));
+    .filter((line) => /^[.%A-Za-z_][\w.[\],\s%^-]*$/.test(line) || parseComputed(line) !== null);
 }
