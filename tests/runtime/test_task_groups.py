@@ -9,6 +9,7 @@ from tappet.codegen.package import TaskSpec
 from tappet.iec.task import Task
 from tappet.runtime.local import LocalRuntime
 from tappet.runtime.online_change import OnlineChangeError, check_change
+from tappet.runtime.tasks import bus_task
 from tappet.runtime.threads import NORMAL, Scheduling, available_processors
 
 TEXT = "PROGRAM PLC_PRG VAR n : DINT; END_VAR n := n + 1; END_PROGRAM"
@@ -71,3 +72,10 @@ def test_another_group_needs_a_download() -> None:
     )
     with pytest.raises(OnlineChangeError, match="task group"):
         check_change(before, after)
+
+
+def test_the_bus_task_is_the_fastest_cyclic_one() -> None:
+    """tasks EX-07, PLC-05: of 4 ms and 20 ms the 4 ms task, whatever the order and the priorities."""
+    slow, fast = TaskSpec("Slow", "cyclic", 20 * MS, 0), TaskSpec("Fast", "cyclic", 4 * MS, 9)
+    assert bus_task([slow, fast]) == 1
+    assert bus_task([fast, slow]) == 0

@@ -25,7 +25,7 @@ from tappet.runtime.executive.records import Record
 from tappet.runtime.flight import LEAST_MEMORY, FlightSettings
 from tappet.runtime.flight_past import RecordedPast
 from tappet.runtime.flight_recording import FlightRecording, RecordedTask, RecordedValue, RecordingError
-from tappet.runtime.forces import PlacedValue, ValueList
+from tappet.runtime.forces import NOBODY, PlacedValue, ValueList
 from tappet.runtime.local import LocalRuntime
 from tappet.runtime.online_change import OnlineChangeError
 from tappet.runtime.places import Place, find_again, name_at
@@ -250,7 +250,7 @@ class _Replay:
         while self.forces and self.forces[0].cycle <= cycle:
             application.forces.release(None)
             for value in self._placed(self.forces.pop(0).values):
-                application.forces.set(value, b"")
+                application.forces.set(value, b"", NOBODY)
             application.publish_forces()
         waiting = []
         for write in self.written:

@@ -1519,6 +1519,29 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/objects/{object_id}/instance-paths": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Add Instance Paths
+         * @description Add the paths of all persistent variables that programs and function blocks declare to the list of
+         *     persistent variables, behind those that are there (PERS-07).
+         *
+         *     Builds the application; the problem `build-errors` (409) when that is not possible.
+         */
+        post: operations["add_instance_paths"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/objects/{object_id}/revert": {
         parameters: {
             query?: never;
@@ -6216,12 +6239,73 @@ export interface components {
             subkind: string | null;
         };
         /**
+         * ForceOrder
+         * @description Values to force; all or none.
+         */
+        ForceOrder: {
+            /**
+             * Source
+             * @description What the order comes from; the list of forces shows it.
+             * @default api
+             * @enum {string}
+             */
+            source?: "workbench" | "api";
+            /** Values */
+            values: components["schemas"]["NewValue"][];
+        };
+        /**
+         * ForcedValue
+         * @description A forced variable with the value it is held at, and where the force comes from.
+         */
+        ForcedValue: {
+            /**
+             * At
+             * @description When it got this value.
+             */
+            at: string | null;
+            /**
+             * Before
+             * @description What it held before, as IEC literal.
+             */
+            before: string | null;
+            /** Error */
+            error: string | null;
+            /** Expression */
+            expression: string;
+            /**
+             * Forced
+             * @default false
+             */
+            forced: boolean;
+            /**
+             * Literal
+             * @description As IEC literal: `TRUE`, `T#1s500ms`, `'abc'`; a number in the format of attribute 'displaymode'.
+             */
+            literal: string | null;
+            /**
+             * Source
+             * @description workbench or api; empty where it is not known.
+             * @default
+             */
+            source: string;
+            /** Type */
+            type: string | null;
+            /**
+             * User
+             * @description Who has forced it.
+             * @default
+             */
+            user: string;
+            /** Value */
+            value: unknown;
+        };
+        /**
          * Forces
          * @description The forced variables with the values that are forced.
          */
         Forces: {
             /** Values */
-            values: components["schemas"]["Value"][];
+            values: components["schemas"]["ForcedValue"][];
         };
         /**
          * ForcesChanged
@@ -15831,6 +15915,47 @@ export interface operations {
             };
         };
     };
+    add_instance_paths: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                object_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ObjectDetail"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
     revert_object: {
         parameters: {
             query?: never;
@@ -19985,7 +20110,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["WriteOrder"];
+                "application/json": components["schemas"]["ForceOrder"];
             };
         };
         responses: {
