@@ -21,7 +21,7 @@ def trace_in_example(ui: Ui, server: Server) -> dict[str, Any]:
     application = next(one for one in objects if one["kind"] == "application")
     order = {"kind": "trace", "name": TRACE, "parent_id": application["id"]}
     made = dict(fetch(ui.page, server, "POST", f"{project}/objects", data=order))
-    record = {"name": "Record1", "channels": [{"variable": "PLC_PRG.iCount"}]}
+    record = {"name": "Record1", "channels": [{"variable": "PLC_PRG.iLoaded"}]}
     body = {"base_revision": made["revision"], "data": made["data"] | {"records": [record]}}
     fetch(ui.page, server, "PUT", f"{project}/objects/{made['id']}", data=body)
     return made
