@@ -115,14 +115,6 @@ class DataBreakpointInfo(Struct, frozen=True, rename="camel"):
     frame_id: int | None = None
 
 
-class BreakpointLocations(Struct, frozen=True, rename="camel"):
-    """Arguments of `breakpointLocations`."""
-
-    source: Source
-    line: int
-    end_line: int | None = None
-
-
 class OfThread(Struct, frozen=True, rename="camel"):
     """Arguments of the commands that move a thread."""
 

@@ -71,7 +71,8 @@ export function useBreakpoints(projectId: string, object: ObjectSummary, part: P
   useEffect(() => {
     if (editor === null || runtimeId === null || part !== 'implementation') return;
     const click = editor.onMouseDown(({ target, event }) => {
-      const beside = target.type === GUTTER_LINE_NUMBERS || target.type === GUTTER_LINE_DECORATIONS;
+      const type: number = target.type;
+      const beside = type === GUTTER_LINE_NUMBERS || type === GUTTER_LINE_DECORATIONS;
       if (!beside || !event.leftButton || target.position === null) return;
       const line = target.position.lineNumber;
       void guard(() => toggleBreakpointAt(runtimeId, { objectId, part }, line));
