@@ -317,6 +317,8 @@ class Outcome:
     traced: Traced
     past: int
     """Cycles that the flight recorder holds."""
+    lasted: float
+    """Seconds that the browsers counted."""
 
 
 async def outcome(size: Size) -> Outcome:
@@ -336,16 +338,18 @@ async def outcome(size: Size) -> Outcome:
                 await asyncio.to_thread(browsers.ready)
                 traced = Traced()
                 tracing = asyncio.create_task(_trace(client, traced))
+                began = time.monotonic()
                 browsers.tell()
                 loaded = await _measure(client, server, endpoint, size.seconds)
                 browsers.tell()
+                lasted = time.monotonic() - began
                 seen = await asyncio.to_thread(browsers.seen)
                 past = (await client.call(GetFlightStatus())).count
                 tracing.cancel()
                 await asyncio.gather(tracing, return_exceptions=True)
             finally:
                 await client.close()
-            return Outcome(idle, loaded, seen, traced, past)
+            return Outcome(idle, loaded, seen, traced, past, lasted)
         finally:
             await process.stop()
 
@@ -361,11 +365,11 @@ def report(found: Outcome, size: Size) -> Report:
         Row("processor, runtime", loaded.runtime_percent, idle.runtime_percent, "%"),
         Row("processor, server", loaded.server_percent, idle.server_percent, "%"),
     ]
-    a_second = seen.frames / size.browsers / size.seconds
+    a_second = seen.frames / size.browsers / found.lasted
     each = f"{a_second:.1f} frames a second each (wanted {1000 / INTERVAL_MS:g})"
     remarks = (
         f"{size.browsers} browsers in {size.processes} processes on the same machine: {each}, at least "
-        f"{seen.least / size.seconds:.1f}; {seen.wire_bytes / size.seconds / 1e6:.2f} MB/s in all",
+        f"{seen.least / found.lasted:.1f}; {seen.wire_bytes / found.lasted / 1e6:.2f} MB/s in all",
         f"{TRACED} variables recorded in every cycle: {found.traced.frames} frames, "
         f"{found.traced.lost} lost; the flight recorder holds {found.past} cycles",
     )
