@@ -43,7 +43,7 @@ def traces(ui: Ui, server: Server) -> Iterator[str]:
         open_object(page, TRACE)
 
         def choose(key: str) -> None:
-            ui.button("trace.menu", ui.panel()).click()
+            ui.button("trace.menu", ui.panel()).press("Enter")
             page.get_by_role("menuitem", name=ui.name(key)).click()
 
         choose("trace.configuration")
