@@ -22,7 +22,7 @@ export function someContext(changes: Partial<CommandContext> = {}): CommandConte
 
 /** A login in the given state of the runtime. */
 export function someSession(state: RuntimeState['state'], changes: Partial<OnlineSession> = {}): OnlineSession {
-  const runtime = { id: 'local', name: 'Local', connected: true, state } as RuntimeState;
+  const runtime = { id: 'local', name: 'Local', connected: true, state, halted: [] as string[] } as RuntimeState;
   return {
     applicationId: 'a',
     runtimeId: 'local',

@@ -78,7 +78,7 @@ def test_the_running_application_is_compared_object_by_object(page: Page, server
     project = _edited(page, server)
     try:
         _relation(page).click()
-        page.get_by_role("button", name=re.compile("^Compare with what runs")).click()
+        page.get_by_role("button", name=re.compile("^Compare with What Runs")).click()
         dialog = page.get_by_role("dialog")
         dialog.get_by_text("GVL_Line").first.click()
         expect(dialog).to_contain_text("nBatches")

@@ -83,7 +83,7 @@ def test_variables_and_recipes_are_added(page: Page, server: Server) -> None:
     project = made(page, server)
     found = panel(page)
     expect(found.get_by_text("No variables yet")).to_be_visible()
-    found.get_by_role("toolbar").get_by_role("button", name="Add variables").click()
+    found.get_by_role("toolbar").get_by_role("button", name="Add Variables").click()
     dialog = page.get_by_role("dialog")
     dialog.get_by_role("textbox").fill("plc step")
     rows = dialog.get_by_role("row").filter(has_text="aStep")
@@ -93,7 +93,7 @@ def test_variables_and_recipes_are_added(page: Page, server: Server) -> None:
     with objects_stored(page):
         dialog.get_by_role("button", name="Add", exact=True).click()
     expect(cell(page, "PLC_PRG.aStep[3]", "Type")).to_have_text("INT")
-    found.get_by_role("button", name="Add recipe").click()
+    found.get_by_role("button", name="Add Recipe").click()
     page.get_by_role("dialog").get_by_label("Name").fill("Rye")
     with objects_stored(page):
         page.keyboard.press("Enter")
@@ -145,7 +145,7 @@ def test_files(page: Page, server: Server, tmp_path: Path) -> None:
     project = made(page, server, filled())
     found = panel(page)
     found.get_by_role("button", name="Recipes").click()
-    page.get_by_role("menuitem", name="Import recipe").click()
+    page.get_by_role("menuitem", name="Import Recipe").click()
     dialog = page.get_by_role("dialog")
     dialog.get_by_label("Text").fill("PLC_PRG.rTemperature 5")
     dialog.get_by_role("button", name="Import", exact=True).click()
@@ -163,7 +163,7 @@ def test_files(page: Page, server: Server, tmp_path: Path) -> None:
     page.get_by_role("option", name="Rye").click()
     found.get_by_role("button", name="Recipes").click()
     with page.expect_download() as download:
-        page.get_by_role("menuitem", name="Export recipe").click()
+        page.get_by_role("menuitem", name="Export Recipe").click()
     assert download.value.suggested_filename == "Rye.Bread.txtrecipe"
     lines = Path(download.value.path()).read_text().splitlines()
     assert lines == [f"{path}:={value}" for path, value in VALUES.items()]

@@ -57,6 +57,7 @@ const ALLOWED: Readonly<Record<string, string>> = {
   'online/treeRows.ts gvl': 'kind of a symbol of the runtime',
   'online/item.ts interface': 'kind of a value of the runtime',
   'workbench/libraries/model.ts interface': 'kind of an item of a library',
+  'workbench/debugger/HaltedStack.tsx pou': 'a column of the call stack',
   'workbench/online/CallStackPanel.tsx pou': 'a column of the call stack',
   'workbench/online/exception.ts pou': 'a field of a frame of the call stack',
   'project/kinds.ts application device folder script': 'roles in the tree',

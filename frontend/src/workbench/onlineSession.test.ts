@@ -3,7 +3,7 @@ import type { RuntimeState } from '@/api/types';
 import { connectionLost, loggedIn, onlineTone, runtimeStateReceived, useOnline } from './onlineSession';
 
 const state = (connected: boolean): RuntimeState =>
-  ({ id: 'local', connected, since: '2026-03-10T08:00:00Z', state: 'run' }) as RuntimeState;
+  ({ id: 'local', connected, since: '2026-03-10T08:00:00Z', state: 'run', halted: [] as string[] }) as RuntimeState;
 const session = () => useOnline.getState().sessions.app!;
 
 beforeEach(() => {
