@@ -221,9 +221,8 @@ class RuntimeDebuggee:
     def _variable(self, found: shapes.Variable) -> Variable:
         literal = found.literal or found.type
         children = self._image.count(found.path) if found.path is not None else 0
-        return Variable(
-            found.name, found.type, literal, found.value, found.path, children, writable=found.writable
-        )
+        writable = found.writable or found.path is not None  # what lies in the image is written there
+        return Variable(found.name, found.type, literal, found.value, found.path, children, writable=writable)
 
     async def children(self, path: str, start: int, count: int, cycle: int | None) -> Sequence[Variable]:
         """What lies below a path of the image."""

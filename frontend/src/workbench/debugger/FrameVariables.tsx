@@ -76,8 +76,8 @@ export function FrameVariables({ runtimeId, variables }: { runtimeId: string; va
       keyOf={({ name }) => name}
       selected={selected}
       onSelect={(variable) => setSelected(variable?.name ?? null)}
-      onOpen={({ name, writable, literal }) => {
-        if (writable && literal !== '') setWritten(name);
+      onOpen={({ name, writable, path, literal }) => {
+        if ((writable || path != null) && literal !== '') setWritten(name);
       }}
       empty={<Empty title={t('debugger.noVariables')} text={t('debugger.noVariablesText')} />}
     />
