@@ -43,6 +43,8 @@ class Task:
     event: str | None = None
     watchdog: Watchdog | None = None
     programs: tuple[str, ...] = ("PLC_PRG",)
+    processors: tuple[int, ...] = ()
+    policy: str = "fifo"
 
 
 def codes(text: str, *tasks: Task) -> list[str]:

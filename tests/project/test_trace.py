@@ -62,7 +62,7 @@ def test_the_same_variable_may_be_in_two_records_and_new_ones_may_be_empty() -> 
 
 
 def test_only_what_is_recorded_needs_a_download() -> None:
-    """EX-07."""
+    """trace EX-07."""
     plain = _record(channels=[{"variable": "P.a"}])
     before = TraceData(records=(plain,)).digest()
     coloured = _record(

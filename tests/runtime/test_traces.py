@@ -43,7 +43,7 @@ def _running() -> LocalRuntime:
 
 
 def test_a_ring_without_trigger_holds_the_last_samples() -> None:
-    """EX-05, TRC-02, TRC-27."""
+    """trace EX-05, TRC-02, TRC-27."""
     with _running() as runtime:
         traced(runtime, "PLC_PRG.s", "PLC_PRG.twice", buffer=100)
         runtime.run(cycles=250)
@@ -56,7 +56,7 @@ def test_a_ring_without_trigger_holds_the_last_samples() -> None:
     ("position", "before", "after"), [(25, 75, 25), (100, 0, 100), (0, 100, 0), (50, 50, 50)]
 )
 def test_position_of_the_trigger(position: int, before: int, after: int) -> None:
-    """EX-01, and EX-03 at 50 %: the event itself counts to the samples before."""
+    """trace EX-01, and trace EX-03 at 50 %: the event itself counts to the samples before."""
     with _running() as runtime:
         traced(runtime, "PLC_PRG.s", buffer=100, trigger={**RISING, "level": "150", "position": position})
         runtime.run(cycles=400)
@@ -68,7 +68,7 @@ def test_position_of_the_trigger(position: int, before: int, after: int) -> None
 
 
 def test_analog_trigger() -> None:
-    """EX-03: triggered when s goes from 49 to 50; recorded are 1 .. 100."""
+    """trace EX-03: triggered when s goes from 49 to 50; recorded are 1 .. 100."""
     with _running() as runtime:
         traced(runtime, "PLC_PRG.s", buffer=100, trigger={**RISING, "position": 50})
         runtime.run(cycles=50)
@@ -105,7 +105,7 @@ def test_edges(trigger: dict[str, str], event: int | None) -> None:
 
 
 def test_recording_condition_leaves_a_gap() -> None:
-    """EX-04, TRC-26: nothing is sampled while it is FALSE; cycle numbers and times show the gap."""
+    """trace EX-04, TRC-26: nothing is sampled while it is FALSE; cycle numbers and times show the gap."""
     with _running() as runtime:
         traced(runtime, "PLC_PRG.s", buffer=1000, condition="PLC_PRG.xRec")
         runtime.run(cycles=40)
@@ -127,7 +127,7 @@ def test_a_condition_may_be_a_number_and_one_without_value_is_false() -> None:
 
 
 def test_every_nth_cycle_and_the_span_of_a_buffer() -> None:
-    """TRC-25, EX-02: buffer x n x interval."""
+    """TRC-25, trace EX-02: buffer x n x interval."""
     task = Task("Fast", interval_ns=4 * MS, programs=("PLC_PRG",))
     with LocalRuntime(build(TEXT, (task,))) as runtime:
         traced(runtime, "PLC_PRG.s", buffer=500, every=2)
@@ -256,7 +256,7 @@ def test_several_traces_and_records_at_once() -> None:
 
 
 def test_a_changed_application_ends_the_trace() -> None:
-    """TRC-70, EX-07: online change and download; a reset does not."""
+    """TRC-70, trace EX-07: online change and download; a reset does not."""
     first = build(TEXT)
     with LocalRuntime(first) as runtime:
         for changed in (

@@ -80,7 +80,7 @@ def compile_order(body: str) -> dict[str, Any]:
         "static": {"rules": {}, "prefixes": {}, "limits": {}}, "check_only": False, "instrumented": False,
         "fresh": False,
         "disabled_warnings": (),
-        "heap": {"limit": 1 << 16, "poison": False},
+        "heap": {"limit": 1 << 16, "poison": False}, "reserve": {"percent": 100, "least": 1 << 16},
     }  # fmt: skip
 
 

@@ -201,7 +201,7 @@ def test_trigger_stop_start_and_reset(client: TestClient) -> None:
 
 
 def test_a_digest_tells_whether_a_download_is_needed(client: TestClient) -> None:
-    """EX-07."""
+    """trace EX-07."""
 
     def digest(data: dict[str, Any]) -> str:
         return client.post("/api/v1/traces/digest", json={"data": data}).json()["digest"]

@@ -1,7 +1,7 @@
 """A trace: records of variables that a task samples together, and how their curves are drawn (trace.md).
 
 Of these settings only those of `recorded` matter to the runtime; the others say how things look, and changing
-them needs no download (TRC-70, EX-07).
+them needs no download (TRC-70, trace EX-07).
 """
 
 from __future__ import annotations
@@ -176,7 +176,7 @@ class TraceData(Data):
         }
 
     def digest(self) -> str:
-        """Differs where a download is needed (EX-07)."""
+        """Differs where a download is needed (trace EX-07)."""
         return hashlib.sha256(json.dumps(self.recorded(), sort_keys=True).encode()).hexdigest()[:20]
 
 

@@ -67,7 +67,7 @@ def trace_tasks(tasks: Sequence[TaskSpec]) -> list[TraceTask]:
 
 
 def samples_behind_trigger(samples: int, position: int) -> int:
-    """How many samples follow the trigger: round(N * p / 100) (trace.md, section 9; EX-01)."""
+    """How many samples follow the trigger: round(N * p / 100) (trace.md, section 9; trace EX-01)."""
     return math.floor(samples * position / 100 + 0.5)
 
 

@@ -55,7 +55,7 @@ AxisName = Annotated[str, Query(pattern="^[A-Za-z_][A-Za-z0-9_]*$", max_length=M
 
 @settings_router.post("/digest")
 async def digest_trace(body: TraceSettingsOrder, who: Viewer) -> TraceDigest:
-    """What a running trace must have as `data_digest`; otherwise it has to be downloaded (EX-07)."""
+    """What a running trace must have as `data_digest`; otherwise it has to be downloaded (trace EX-07)."""
     return TraceDigest(digest=body.data.digest())
 
 

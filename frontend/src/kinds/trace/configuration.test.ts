@@ -58,7 +58,7 @@ describe('records and variables', () => {
     ]);
   });
 
-  it('hold as long as buffer, cycles and task say (EX-02)', () => {
+  it('hold as long as buffer, cycles and task say (trace EX-02)', () => {
     expect(recordedSpan({ buffer: 100, every: 1 }, 10e6)).toBe(1e9);
     expect(recordedSpan({ buffer: 500, every: 2 }, 4e6)).toBe(4e9);
   });
@@ -114,7 +114,7 @@ describe('faults', () => {
 });
 
 describe('a download', () => {
-  it('is needed after a change of what is recorded, not of how it looks (EX-07)', () => {
+  it('is needed after a change of what is recorded, not of how it looks (trace EX-07)', () => {
     const all = [{ record: 0, channel: 0 }];
     const changed = (change: Parameters<typeof changeChannels>[2]) => recordedPart(changeChannels(two, all, change));
     const now = recordedPart(two);

@@ -287,12 +287,12 @@ export function valueAxisFaults(axis: ValueAxis): AxisFault[] {
   return found;
 }
 
-/** Nanoseconds that a record holds: buffer x n x task interval (TRC-25, EX-02). */
+/** Nanoseconds that a record holds: buffer x n x task interval (TRC-25, trace EX-02). */
 export function recordedSpan(record: Pick<TraceRecord, 'buffer' | 'every'>, intervalNs: number): number {
   return record.buffer * record.every * intervalNs;
 }
 
-/** What the controller records of a configuration, to compare; the rest is how it looks and needs no download (EX-07). */
+/** What the controller records of a configuration, to compare; the rest is how it looks and needs no download (trace EX-07). */
 export function recordedPart({ points, records }: TraceData): string {
   return JSON.stringify([
     points,

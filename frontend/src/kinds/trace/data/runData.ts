@@ -182,7 +182,7 @@ export class RunData {
     this.stores.clear();
   }
 
-  /** Samples that the ring has forgotten are not drawn (EX-05). */
+  /** Samples that the ring has forgotten are not drawn (trace EX-05). */
   private clipped(pieces: Piece[], record: number): Piece[] {
     const extent = this.extent(record);
     if (extent === null) return [];

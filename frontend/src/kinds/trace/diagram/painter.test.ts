@@ -38,7 +38,7 @@ describe('graph types (TRC-42)', () => {
     expect(strokes('cross', [7])).toBe('M-2,9 L2,5 M-2,5 L2,9');
   });
 
-  it('leave out what was not recorded (EX-04)', () => {
+  it('leave out what was not recorded (trace EX-04)', () => {
     expect(strokes('line', [1, 2, 3, 4], [0, 0, 1, 0])).toBe('M0,1 L0.5,1 L10,2 M20,3 L20.5,3 L30,4');
     expect(strokes('line', [1, NaN, 3])).toBe('M0,1 L0.5,1 M20,3 L20.5,3');
   });
@@ -60,7 +60,7 @@ describe('the colours of limits', () => {
   const colorAt = (value: number, of: CurveLook, on = plane) =>
     bands(of, on).find(({ from, to }) => on.toY(value) > from && on.toY(value) < to)?.color;
 
-  it('are those of the warning beyond the limit (EX-06)', () => {
+  it('are those of the warning beyond the limit (trace EX-06)', () => {
     const wide = { ...plane, height: 400, toY: (value: number) => 200 - value };
     expect([101, 99, 0, -49, -51].map((value) => colorAt(value, look, wide))).toEqual([
       'red',

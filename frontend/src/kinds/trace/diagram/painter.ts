@@ -98,7 +98,7 @@ function marks(pen: Pen, curves: Curves, curve: Curve, graph: GraphType, plane: 
   }
 }
 
-/** Parts of the plane from top to bottom, each with its colour: beyond a limit that of the warning (EX-06). */
+/** Parts of the plane from top to bottom, each with its colour: beyond a limit that of the warning (trace EX-06). */
 export function bands(look: CurveLook, plane: Plane): { from: number; to: number; color: string }[] {
   const bottom = plane.top + plane.height;
   const limit = (warning: Warning) => Math.min(bottom, Math.max(plane.top, plane.toY(warning.limit)));
