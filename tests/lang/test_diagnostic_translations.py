@@ -24,8 +24,8 @@ KINDS = ("what", "verb", "needed", "given", "count", "expected", "where", "size"
 UNITS = ("ns", "ms", "IX", "Sample", "McCabe", "TO", "STRING", "WSTRING")
 OPERATORS = ("hasattribute", "hastype", "hasvalue", "RETC")
 """Words of conditions and of IL that are no keywords elsewhere."""
-ST = ("head", "parameters", "known")
-"""Facts that are written in ST."""
+ST = ("head", "parameters", "known", "events")
+"""Facts that are written in ST, or are names."""
 ROWS = list(
     csv.DictReader(files("tappet.lang").joinpath("phrases_zh.csv").read_text(encoding="utf-8").splitlines())
 )

@@ -30,7 +30,8 @@ def test_the_new_project() -> None:
         "type": "cyclic",
         "interval": "T#20ms",
         "event": "",
-        "watchdog": {"enabled": False, "time": "T#100ms", "sensitivity": 1},
+        "group": "",
+        "watchdog": {"enabled": False, "time": "T#100ms", "percent": None, "sensitivity": 1},
         "pous": ({"name": "PLC_PRG", "comment": ""},),
     }
 

@@ -49,6 +49,7 @@ OF_VIEWERS = {
     "/api/v1/me/settings/{key}",
     "/api/v1/projects/{project_id}/applications/{application_id}/login",
     "/api/v1/projects/{project_id}/applications/{application_id}/logout",
+    "/api/v1/projects/{project_id}/applications/{application_id}/versions/{code_id}/compare",
     "/api/v1/projects/{project_id}/cams/code",
     "/api/v1/projects/{project_id}/cams/curves",
     "/api/v1/projects/{project_id}/cams/text",

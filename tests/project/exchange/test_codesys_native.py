@@ -78,7 +78,7 @@ def test_a_whole_project() -> None:
     assert done.project.get(paths["Press/PLC Logic/App/E_Mode"]).excluded
     task = done.project.get(paths["Press/PLC Logic/App/Task Configuration/MainTask"]).data.model_dump()
     assert (task["type"], task["interval"], task["priority"]) == ("cyclic", "T#2500us", 4)
-    assert task["watchdog"] == {"enabled": True, "time": "t#9ms", "sensitivity": 3}
+    assert task["watchdog"] == {"enabled": True, "time": "t#9ms", "percent": None, "sensitivity": 3}
     assert task["pous"] == ({"name": "PLC_PRG", "comment": "first"},)
     manager = done.project.get(paths["Press/PLC Logic/App/Library Manager"]).data.model_dump()
     assert [one["name"] for one in manager["references"]] == ["Standard", "Util"]

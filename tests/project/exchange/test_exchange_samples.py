@@ -98,7 +98,7 @@ def test_codesys_methods_properties_folders_tasks_and_plain_text() -> None:
     assert 'formalParameter="none"' in ladder["implementation"]
     task = at(project, f"{app}/Task Configuration/MainTask").data.model_dump()
     assert (task["interval"], task["priority"], task["pous"][0]["name"]) == ("t#10ms", 31, "PLC_PRG")
-    assert task["watchdog"] == {"enabled": True, "time": "T#20ms", "sensitivity": 2}
+    assert task["watchdog"] == {"enabled": True, "time": "T#20ms", "percent": None, "sensitivity": 2}
     assert said(report) == {("Controller", "refused"), ("MainTask", "changed"), ("Ladder", "kept")}
 
 

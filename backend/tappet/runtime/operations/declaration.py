@@ -111,6 +111,8 @@ class WireOperation(Struct, Generic[Reply], frozen=True, forbid_unknown_fields=T
     op: ClassVar[str] = ""
     """Name on the wire."""
     rest: ClassVar[Rest | None] = None
+    of_recordings: ClassVar[bool] = False
+    """A recording of the flight recorder answers it as a controller does."""
 
     @abstractmethod
     async def serve(self, session: Session) -> Reply:

@@ -85,6 +85,7 @@ class GetFlightStatus(Operation[FlightStatus], frozen=True):
     """What is kept of the past. It freezes at an exception; after a reset it begins again."""
 
     op: ClassVar[str] = "flight_status"
+    of_recordings: ClassVar[bool] = True
     rest: ClassVar[Rest | None] = Rest("GET", "/flight", "viewer", None, state_of, _TAG)
 
     def run(self, plc: SoftPlc) -> FlightStatus:
@@ -96,6 +97,7 @@ class ListFlightCycles(Operation[list[tuple[int, int]]], frozen=True):
     """All past cycles that can be read, oldest first. Numbers are missing where nothing was recorded."""
 
     op: ClassVar[str] = "flight_history"
+    of_recordings: ClassVar[bool] = True
     rest: ClassVar[Rest | None] = Rest("GET", "/flight/cycles", "viewer", None, cycles_of, _TAG)
 
     def run(self, plc: SoftPlc) -> list[tuple[int, int]]:
@@ -107,6 +109,7 @@ class ReadFlight(Operation[list[bytes]], frozen=True):
     """Bytes at (offset, size) at the end of a past cycle; refused when it is not kept."""
 
     op: ClassVar[str] = "flight_read"
+    of_recordings: ClassVar[bool] = True
     cycle: Count
     places: Places
 

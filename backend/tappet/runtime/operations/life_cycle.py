@@ -26,6 +26,7 @@ class GetInfo(Operation[RuntimeInfo], frozen=True):
     """Identity, state and application."""
 
     op: ClassVar[str] = "info"
+    of_recordings: ClassVar[bool] = True
 
     def run(self, plc: SoftPlc) -> RuntimeInfo:
         """Ask the PLC."""

@@ -102,6 +102,7 @@ class GetException(Operation[exception_report.ExceptionReport | None], frozen=Tr
     """Why the application stopped, with call stack and values; null when it did not."""
 
     op: ClassVar[str] = "exception"
+    of_recordings: ClassVar[bool] = True
     rest: ClassVar[Rest | None] = Rest("GET", "/exception", "viewer", None, exception_of)
 
     def run(self, plc: SoftPlc) -> exception_report.ExceptionReport | None:

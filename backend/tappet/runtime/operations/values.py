@@ -48,6 +48,7 @@ class Read(Operation[list[bytes]], frozen=True):
     """Bytes at (offset, size) places, all of one moment."""
 
     op: ClassVar[str] = "read"
+    of_recordings: ClassVar[bool] = True
     places: Places
 
     def run(self, plc: SoftPlc) -> list[bytes]:
@@ -103,6 +104,7 @@ class ListForces(Operation[list[ForcedValue]], frozen=True):
     """All forces."""
 
     op: ClassVar[str] = "forces"
+    of_recordings: ClassVar[bool] = True
 
     def run(self, plc: SoftPlc) -> list[ForcedValue]:
         """In the order in which they were set."""

@@ -21,10 +21,6 @@ from tappet.runtime.flight_deltas import FlightError
 from tappet.runtime.flight_past import RecordedPast
 from tappet.runtime.flight_recording import FlightRecording
 from tappet.runtime.operations.declaration import Operation, Reply, WireOperation
-from tappet.runtime.operations.flight import GetFlightStatus, ListFlightCycles, ReadFlight
-from tappet.runtime.operations.life_cycle import GetInfo
-from tappet.runtime.operations.reports import GetException
-from tappet.runtime.operations.values import ListForces, Read
 from tappet.runtime.source_archive import SourceInfo
 from tappet.runtime.state import RuntimeInfo, State
 from tappet.server.runtimes.plc_client import LoadMode, Recorder
@@ -32,7 +28,6 @@ from tappet.server.runtimes.plc_client import LoadMode, Recorder
 if TYPE_CHECKING:
     from tappet.runtime.plc import SoftPlc
 
-_ANSWERED = (GetInfo, GetException, ListForces, Read, GetFlightStatus, ListFlightCycles, ReadFlight)
 _REFUSAL = "this is a recording: its values can be looked at, nothing in it runs or can be written"
 
 
@@ -115,7 +110,7 @@ class RecordedPlc:
 
     async def call(self, operation: WireOperation[Reply]) -> Reply:
         """The reply to an operation that reads; RuntimeRefused for all others."""
-        if not isinstance(operation, _ANSWERED):
+        if not operation.of_recordings:
             raise RuntimeRefused("refused", _REFUSAL)
         reading = cast("Operation[Reply]", operation)
         plc = cast("SoftPlc", self._application)
