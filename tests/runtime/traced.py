@@ -10,7 +10,8 @@ from tappet.project.trace import TraceData
 from tappet.runtime.local import LocalRuntime
 from tappet.runtime.sampled import TraceSpec, TraceStatus
 from tappet.runtime.trace_compiler import compile_trace, trace_tasks
-from tappet.runtime.trace_record import TraceRecordStatus, frame_dtype
+from tappet.runtime.trace_record import TraceRecordStatus
+from tappet.traces.samples import frame_dtype
 
 
 def trace_data(*variables: str, **record: Any) -> TraceData:

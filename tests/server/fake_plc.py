@@ -107,6 +107,10 @@ class FakePlc:
     recording: FlightRecording | None = None
     source: SourceStore = field(default_factory=lambda: SourceStore(None))
 
+    @property
+    def debugger(self) -> NoReturn:
+        raise PlcError("this one runs no code, so there is nothing to debug")
+
     async def connect(self, url: str, token: str) -> FakeClient:
         if self.down:
             raise ConnectionRefusedError("Connection refused")

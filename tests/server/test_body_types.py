@@ -38,7 +38,7 @@ def test_what_is_nearly_a_number_or_a_truth_is_refused(
     app: FastAPI, admin: TestClient, runtime_id: str
 ) -> None:
     known = {"project_id": admin.post("/api/v1/projects", json={"name": "Press"}).json()["id"]}
-    known |= {"runtime_id": runtime_id}
+    known |= {"runtime_id": runtime_id, "id": "1", "frame": "0"}
     tree = admin.get(f"/api/v1/projects/{known['project_id']}/objects").json()
     known |= {"object_id": tree[0]["id"]}
     asked, taken = 0, []

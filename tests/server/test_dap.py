@@ -134,6 +134,10 @@ async def test_a_session_from_the_first_breakpoint_to_the_end(tmp_path: Path) ->
 async def test_an_exception_stops_at_its_line_and_the_past_can_be_looked_at(tmp_path: Path) -> None:
     async with adapter(tmp_path) as (client, path):
         await client.begin({}, program=path)
+        async with asyncio.timeout(60):
+            total = "0"
+            while total in ("0", "0.0"):  # until a cycle is recorded that is good
+                total = (await client.body("evaluate", expression="Main.fTotal", context="watch"))["result"]
         await client.body("evaluate", expression="Main.nIndex := 6", context="repl")
         stopped = await client.event("stopped")
         assert (stopped["reason"], stopped["allThreadsStopped"]) == ("exception", True)

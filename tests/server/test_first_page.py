@@ -35,15 +35,29 @@ async def main():
 
 asyncio.run(main())
 """
-ROOMS = {"iec", "project", "server", "runtime", "codegen", "lang", "libraries", "motion", "translation"}
+ROOMS = {
+    "iec",
+    "project",
+    "server",
+    "runtime",
+    "codegen",
+    "lang",
+    "libraries",
+    "motion",
+    "traces",
+    "translation",
+}
 LANGUAGE = {"coding_settings", "diagnostic_translations", "diagnostics", "nearest", "reference", "source"}
 """The tables of messages and of help, and what reports of other processes consist of."""
-CODE = {"display", "literals", "package", "symbol_map", "symbol_types", "values"}
+CODE = {
+    "converted_values", "display", "expressions", "literals", "package", "symbol_map", "symbol_types", "values",
+    "variable_changes",
+}  # fmt: skip
 """How a package and the values in a running one are read."""
 MOTION = {"axis_measurement", "loops"}
 """What is asked of a controller to measure an axis; a process of its own computes with the answer."""
 UNWANTED = {
-    "llvmlite", "lsprotocol", "httpx", "viser", "numpy", "rich", "sqlalchemy.dialects.postgresql",
+    "llvmlite", "lsprotocol", "httpx", "viser", "rich", "sqlalchemy.dialects.postgresql",
     "tappet.libraries.catalog", "tappet.project.exchange.importing", "tappet.project.exchange.plcopen_write",
     "tappet.runtime.plc", "tappet.runtime.executive.loader",
     "tappet.runtime.unit_tests.runner", "tappet.server.lsp.session", "tappet.server.analysis.worker",

@@ -9,44 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Literal
 
-from msgspec import Struct
-
 from tappet.codegen.constants import CONSTANT
 from tappet.codegen.converted_values import convertible
 from tappet.codegen.online import INIT, INIT_OTHER, NO_COPY, TypePairs
 from tappet.codegen.package import CodePackage
 from tappet.codegen.symbol_types import MemberInfo, TypeInfo
+from tappet.codegen.variable_changes import ChangeReport, Effect, Reason, VariableChange
 
 MOST_ROWS = 5000
 """Rows of one report; the others are counted."""
-
-Effect = Literal["initialised", "converted", "moved", "kept", "lost"]
-Reason = Literal[
-    "new", "new_elements", "type_changed", "no_copy", "init_on_change", "constant", "address",
-    "string_shortened", "place", "initial_value", "removed", "elements_removed",
-]  # fmt: skip
-
-
-class VariableChange(Struct, frozen=True):
-    """What happens to one variable."""
-
-    path: str
-    effect: Effect
-    reason: Reason
-    type: str
-    """Its type afterwards; before, for a variable that is lost."""
-    before: str = ""
-    """Its type before, where it has changed."""
-    calls: tuple[str, ...] = ()
-    """Methods of the block that are called: FB_Exit, FB_Init, FB_Reinit."""
-    remanent: bool = False
-
-
-class ChangeReport(Struct, frozen=True):
-    """Rows, and how many more there would be."""
-
-    rows: tuple[VariableChange, ...] = ()
-    omitted: int = 0
 
 
 def change_report(old: CodePackage, new: CodePackage) -> ChangeReport:

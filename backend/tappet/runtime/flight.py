@@ -13,7 +13,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
-from tappet.runtime.contexts import FAULTED
 from tappet.runtime.executive.records import Record
 from tappet.runtime.flight_deltas import BLOCK, ENTRY_SIZE, Entry, FlightError, rebuild, unpack_entries
 from tappet.runtime.image import Image
@@ -312,6 +311,8 @@ def _not_kept(cycle: int, entries: Sequence[Entry], at: int) -> str:
 
 def make_flight(application: LoadedApplication, settings: FlightSettings) -> FlightRecorder | None:
     """The flight recorder, at the bus cycle task; None without task, memory or wish for it."""
+    from tappet.runtime.contexts import FAULTED  # what only reads recordings does without tasks
+
     bus = application.ownership.bus
     if bus is None or not settings.memory:
         return None

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Literal
 
-import numpy as np
 from msgspec import Meta, Struct
 
 from tappet.codegen.expressions.program import KIND_SIZE, Base, ExpressionProgram, Kind, Op
@@ -113,25 +112,6 @@ class TraceFrames(Struct, frozen=True):
     """Number of the first one; later than asked for where older ones are overwritten."""
     count: int
     data: bytes
-
-
-def frame_dtype(sources: list[TraceSource], frame_size: int) -> np.dtype[np.void]:
-    """How a frame reads: `cycle`, `time`, and the sources by their numbers in the list."""
-    names, formats, offsets = ["cycle", "time"], ["<i8", "<i8"], [0, 8]
-    at = HEADER_SIZE
-    for number, source in enumerate(sources):
-        if source.program is not None:
-            names.append(str(number))
-            formats.append("<f8")
-            offsets.append(at)
-            at += 8
-    for number, source in enumerate(sources):
-        if source.program is None:
-            names.append(str(number))
-            formats.append(f"<{source.number}")
-            offsets.append(at)
-            at += source.size
-    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": frame_size})
 
 
 def loaded_places(program: ExpressionProgram) -> list[tuple[int, int]]:

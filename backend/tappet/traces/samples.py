@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
 
-from tappet.runtime.trace_record import TraceSource, frame_dtype
+from tappet.runtime.trace_record import HEADER_SIZE, TraceSource
 
 Reals = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
@@ -185,3 +185,22 @@ class BatchSamples:
     def extremes(self, channel: int, start: int, stop: int, step: int) -> tuple[Reals, Reals]:
         """Least and largest values of blocks."""
         return reduced(self._batch.values[channel][start:stop], step)
+
+
+def frame_dtype(sources: list[TraceSource], frame_size: int) -> np.dtype[np.void]:
+    """How a frame reads: `cycle`, `time`, and the sources by their numbers in the list."""
+    names, formats, offsets = ["cycle", "time"], ["<i8", "<i8"], [0, 8]
+    at = HEADER_SIZE
+    for number, source in enumerate(sources):
+        if source.program is not None:
+            names.append(str(number))
+            formats.append("<f8")
+            offsets.append(at)
+            at += 8
+    for number, source in enumerate(sources):
+        if source.program is None:
+            names.append(str(number))
+            formats.append(f"<{source.number}")
+            offsets.append(at)
+            at += source.size
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": frame_size})

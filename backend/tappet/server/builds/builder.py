@@ -16,7 +16,7 @@ from typing import Any
 import msgpack
 from msgspec import convert, to_builtins
 
-from tappet.codegen.change_report import ChangeReport
+from tappet.codegen.variable_changes import ChangeReport
 from tappet.iec.heap import DEFAULT_HEAP, HeapSettings
 from tappet.iec.memory import DEFAULT_RESERVE, ChangeReserve
 from tappet.iec.places import Span

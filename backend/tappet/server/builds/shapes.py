@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field, PrivateAttr
 
-from tappet.codegen.change_report import Effect, Reason
+from tappet.codegen.variable_changes import Effect, Reason
 from tappet.lang.diagnostic_translations import Texts, said
 from tappet.server.shapes import Reply, Request
 from tappet.server.source.shapes import StoredSource

@@ -19,8 +19,9 @@ from typing import Any
 from msgspec import convert, structs, to_builtins
 
 from tappet.codegen.build import BuildOptions, BuildSession, build_application
-from tappet.codegen.change_report import ChangeReport, change_report
+from tappet.codegen.change_report import change_report
 from tappet.codegen.package import CodePackage
+from tappet.codegen.variable_changes import ChangeReport
 from tappet.iec.heap import HeapSettings
 from tappet.iec.memory import ChangeReserve
 from tappet.iec.task import Task

@@ -9,17 +9,12 @@ from typing import Annotated
 from fastapi import Query, WebSocket
 from starlette.concurrency import run_in_threadpool
 
-from tappet.codegen.package import CodePackage
 from tappet.project.model import Project
 from tappet.server.audited import ActRecord
 from tappet.server.auth.identity import Identity
 from tappet.server.builds.packages import StoredPackage
-from tappet.server.dap.connecting import library_text
 from tappet.server.dap.debuggee import Debuggee, Refused
-from tappet.server.dap.link_caller import LinkCaller
 from tappet.server.dap.messages import Attach, Launch
-from tappet.server.dap.program_files import ObjectDocuments
-from tappet.server.dap.runtime_debuggee import RuntimeDebuggee
 from tappet.server.dap.session import DebugSession
 from tappet.server.dependencies import Engineer, ServicesDep, SessionDep
 from tappet.server.problems import Problem
@@ -74,6 +69,13 @@ async def debug_adapter(
 
 async def _debuggee(services: Services, link: RuntimeLink, who: Identity) -> Debuggee:
     """What a runtime runs, with the texts that it was built of. Raises Refused."""
+    # Most servers never debug by this way: they start without what it needs.
+    from tappet.codegen.package import CodePackage
+    from tappet.server.dap.connecting import library_text
+    from tappet.server.dap.link_caller import LinkCaller
+    from tappet.server.dap.program_files import ObjectDocuments
+    from tappet.server.dap.runtime_debuggee import RuntimeDebuggee
+
     try:
         link.loaded_symbols()
     except Problem as problem:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec import structs
 
@@ -13,7 +13,6 @@ from tappet.project.trace import TraceData
 from tappet.runtime.operations.tasks import ListTasks
 from tappet.runtime.operations.traces import DownloadTrace, UploadTrace
 from tappet.runtime.sampled import TraceSpec, TraceStatus
-from tappet.runtime.trace_compiler import TraceSettingsError, TraceTask, compile_trace
 from tappet.runtime.trace_record import TraceRecordStatus
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
@@ -33,6 +32,9 @@ from tappet.server.traces.shapes import (
 from tappet.server.traces.store import RecordingStore, StoredRecording
 from tappet.traces.recording import RecordInfo
 from tappet.traces.samples import ChannelInfo
+
+if TYPE_CHECKING:
+    from tappet.runtime.trace_compiler import TraceTask
 
 
 class Traces:
@@ -81,6 +83,9 @@ class Traces:
 
 def compiled(link: RuntimeLink, name: str, data: TraceData, tasks: list[TraceTask], author: str) -> TraceSpec:
     """What the runtime gets; raises a 422 problem that says what is wrong with the settings."""
+    # The compiler of expressions is large, and few servers trace.
+    from tappet.runtime.trace_compiler import TraceSettingsError, compile_trace
+
     symbols = link.loaded_symbols()
     code_id = link.info.code_id if link.info is not None else None
     try:
@@ -98,6 +103,8 @@ async def tasks_of(link: RuntimeLink) -> list[TraceTask]:
     """The tasks of the loaded application."""
     async with link.client() as client:
         found = await client.call(ListTasks())
+    from tappet.runtime.trace_compiler import TraceTask
+
     return [TraceTask(t.name, t.interval_ns if t.kind == "cyclic" else 0) for t in found]
 
 
