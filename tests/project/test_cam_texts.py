@@ -122,6 +122,16 @@ def _same_curve(one: CamTable, other: CamTable) -> None:
         assert found.v == pytest.approx(wanted.v, abs=1e-7)
 
 
+def _bends(cam: CamTable) -> list[tuple[float, ...]]:
+    """The points of a curve; two at one place that differ by rounding alone are one."""
+    found: list[tuple[float, ...]] = []
+    for p in xyva_points(cam):
+        point = (p.x, p.y, p.v, p.a)
+        if not found or found[-1] != pytest.approx(point, rel=1e-12, abs=1e-12):
+            found.append(point)
+    return found
+
+
 @quick
 @given(cam=cams(laws=POLYNOMIALS))
 def test_cam_files_come_back(cam: CamTable) -> None:
@@ -129,8 +139,7 @@ def test_cam_files_come_back(cam: CamTable) -> None:
     text = written_file("Feeder", cam)
     back = imported_cam(text, OTHER).cam
     _same_curve(back, cam)
-    again = [(p.x, p.y, p.v, p.a) for p in xyva_points(back)]
-    wanted = [(p.x, p.y, p.v, p.a) for p in xyva_points(cam)]
+    again, wanted = _bends(back), _bends(cam)
     assert len(again) == len(wanted)
     for one, other in zip(again, wanted, strict=True):
         assert one == pytest.approx(other, rel=1e-8, abs=1e-8)
