@@ -20,6 +20,7 @@ from tappet.runtime.places import path_at
 from tappet.runtime.recorder import Recorder, RecorderSpec
 from tappet.runtime.sampled import TraceSpec, TraceStatus
 from tappet.runtime.source_archive import SourceInfo, SourceNote, SourceStore
+from tappet.runtime.system_events import happened
 from tappet.runtime.task_group import TaskError
 from tappet.runtime.tasks import TaskHistogram, TaskStatistics
 from tappet.runtime.trace_record import Command, TraceFrames
@@ -63,6 +64,12 @@ class ApplicationAccess:
         """Something listeners want to know; the life cycle overrides this."""
 
     # -- values ------------------------------------------------------------------------------------------
+
+    def happen(self, event: str, *, when: bool = True) -> None:
+        """A system event that concerns the loaded application, if there is one."""
+        with self._lock:
+            if when and self.application is not None:
+                happened(self.application, event, self.log)
 
     def symbols(self) -> SymbolMap:
         """Symbol map of the loaded application."""

@@ -152,12 +152,6 @@ class SoftPlc(ApplicationAccess):
                 self._seen_state = state
                 self._notify("exception" if entered else "state")
 
-    def happen(self, event: str, *, when: bool = True) -> None:
-        """A system event that concerns the loaded application, if there is one."""
-        with self._lock:
-            if when and self.application is not None:
-                happened(self.application, event, self.log)
-
     def _notify(self, kind: str) -> None:
         self._seen_state = self.state
         if self.on_event is not None:
