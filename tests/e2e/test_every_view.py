@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator, expect
 
+from . import debugger_dialogs as debugger_dialogs  # its tour
 from . import motion_dialogs as motion_dialogs  # its tours
 from . import recipe_dialogs as recipe_dialogs  # its tour
 from . import trace_dialogs as trace_dialogs
