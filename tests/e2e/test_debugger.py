@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from .conftest import Server
-from .workbench import choose_menu, implementation, log_in, open_object, open_project, show_panel, status_bar
+from .workbench import implementation, log_in, open_object, open_project, show_panel, status_bar
 
 pytestmark = pytest.mark.e2e
 
@@ -20,15 +19,11 @@ CALL, NEXT = 3, 4
 
 
 @pytest.fixture
-def debugged(page: Page) -> Iterator[Page]:
+def debugged(page: Page) -> Page:
     open_project(page)
     open_object(page, "PLC_PRG")
     log_in(page)
-    yield page
-    choose_menu(page, "Debug", "Remove All Breakpoints")
-    if "halted" in status_bar(page).inner_text():
-        page.keyboard.press("F5")
-    expect(status_bar(page)).to_contain_text("running")
+    return page
 
 
 def picture(page: Page, name: str) -> None:
