@@ -65,6 +65,8 @@ export interface Command {
   delegated?: boolean;
   /** Keys pressed out of habit (Ctrl+S): where it is not possible now, nothing is said. */
   quiet?: boolean;
+  /** Its keys mean something else (Shift+F10: the context menu) where it is not possible now. */
+  yieldsKeys?: boolean;
   /** A check mark in menus, a pressed look in the tool bar. */
   checked?: (context: CommandContext) => boolean;
   visible?: (context: CommandContext) => boolean;

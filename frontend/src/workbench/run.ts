@@ -65,7 +65,8 @@ function onKeyDown(event: KeyboardEvent): void {
   if (isField(event.target) && belongsToField(event)) return;
   const { commands } = useRegistry.getState();
   const context = commandContext();
-  const shown = (command: Command) => command.visible?.(context) ?? true;
+  const shown = (command: Command) =>
+    (command.visible?.(context) ?? true) && !(command.yieldsKeys && (command.enabled?.(context) ?? true) !== true);
   const command = findByKey(commands.values(), event, scopeOf(event.target), shown);
   if (command) {
     event.preventDefault();

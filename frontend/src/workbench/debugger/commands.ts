@@ -71,6 +71,7 @@ const commands: Command[] = [
       title: 'debugger.stepOut',
       icon: ArrowUpFromDot,
       keys: ['Shift+F10'],
+      yieldsKeys: true,
       toolbar: { group: '4_step', order: 5 },
       enabled: mayStep,
       run: moves('step_out'),
