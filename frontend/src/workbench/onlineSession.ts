@@ -120,8 +120,7 @@ function change(where: (session: OnlineSession) => boolean, values: Partial<Onli
 }
 
 /** How a session looks: the colour of editor headers, tree nodes and the status bar. */
-export type OnlineTone =
-  'running' | 'halted' | 'stopped' | 'exception' | 'simulated' | 'lost' | 'past' | 'unknown';
+export type OnlineTone = 'running' | 'halted' | 'stopped' | 'exception' | 'simulated' | 'lost' | 'past' | 'unknown';
 
 export function onlineTone(session: OnlineSession | null | undefined, simulated = false): OnlineTone {
   if (!session?.runtime) return session?.lostSince ? 'lost' : 'unknown';
