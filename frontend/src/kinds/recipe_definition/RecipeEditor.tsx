@@ -54,7 +54,7 @@ export default function RecipeEditor({ panelId, projectId, objectId }: EditorPro
   if (shown !== recipe) setShown(shown);
   const runtimeId = application === true ? (session?.runtimeId ?? null) : null;
   const comparison = useComparison(runtimeId, projectId, objectId, draft.object?.revision ?? 0);
-  const types = useRecipeVariables(projectId, objectId, NO_OTHERS);
+  const types = useRecipeVariables(projectId, objectId, NO_OTHERS, draft.object?.revision);
   const { change } = draft;
   const name = draft.object?.name ?? '';
   const { selected } = selection;

@@ -1,10 +1,10 @@
 import { keepPreviousData, useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
 
-/** The elementary variables of the application that fit a query, from its build. */
-export function useRecipeVariables(projectId: string, objectId: string, query: string) {
+/** The elementary variables of the application that fit a query, and the types of those of the definition as stored. */
+export function useRecipeVariables(projectId: string, objectId: string, query: string, revision = 0) {
   return useQuery({
-    queryKey: ['recipe-variables', projectId, objectId, query],
+    queryKey: ['recipe-variables', projectId, objectId, query, revision],
     queryFn: () =>
       api.get('/api/v1/projects/{project_id}/recipes/{definition_id}/variables', {
         params: { path: { project_id: projectId, definition_id: objectId }, query: { query } },
