@@ -100,7 +100,7 @@ def test_variables_and_recipes_are_added(page: Page, server: Server) -> None:
     cell(page, "PLC_PRG.aStep[1]", "Rye").dblclick()
     page.keyboard.type("5 +")
     page.keyboard.press("Enter")
-    expect(page.get_by_role("alert")).to_contain_text("'5 +' is no value")
+    expect(page.get_by_role("alert").filter(has_text="'5 +' is no value")).to_be_visible()
     page.keyboard.press("Control+A")
     with objects_stored(page):
         page.keyboard.type("17")
