@@ -3422,7 +3422,7 @@ export interface paths {
         put?: never;
         /**
          * Digest Trace
-         * @description What a running trace must have as `data_digest`; otherwise it has to be downloaded (EX-07).
+         * @description What a running trace must have as `data_digest`; otherwise it has to be downloaded (trace EX-07).
          */
         post: operations["digest_trace"];
         delete?: never;
