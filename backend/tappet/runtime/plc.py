@@ -148,9 +148,7 @@ class SoftPlc(ApplicationAccess):
                 self.log.add("exception", "application", summary(report))
                 self.happen("Exception")
             if state != self._seen_state:
-                entered = state == "exception"
-                self._seen_state = state
-                self._notify("exception" if entered else "state")
+                self._notify("exception" if state == "exception" else "state")
 
     def _notify(self, kind: str) -> None:
         self._seen_state = self.state

@@ -13,12 +13,12 @@ test.each([[undefined], ['tappet'], [[]], [['']], [['tappet', 1]]])('%j names no
 });
 
 test('without a launch.json the open file is debugged, or the folder', () => {
-  expect(completed({}, '/work/Main.ST')).toMatchObject({ type: 'tappet', request: 'launch', program: '${file}' });
-  expect(completed({}, '/work/readme.md')['program']).toBe('${workspaceFolder}');
+  expect(completed({}, '/machine/Main.ST')).toMatchObject({ type: 'tappet', request: 'launch', program: '${file}' });
+  expect(completed({}, '/machine/readme.md')['program']).toBe('${workspaceFolder}');
   expect(completed({}, undefined)['program']).toBe('${workspaceFolder}');
 });
 
 test('a configuration of the user stays as it is', () => {
   const own = { type: 'tappet', request: 'attach', name: 'Line 1', program: '/p', runtime: 'ws://plc:11740' };
-  expect(completed(own, '/work/Main.st')).toEqual(own);
+  expect(completed(own, '/machine/Main.st')).toEqual(own);
 });
