@@ -13,7 +13,8 @@ from dap_debuggee import FILE, WalkingDebuggee
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tappet.server.dap.debuggee import Hits, Refused
+from tappet.runtime.debugger.shapes import Hits
+from tappet.server.dap.debuggee import Refused
 from tappet.server.dap.session import DebugSession
 
 Talk = Callable[[DapClient, WalkingDebuggee], Awaitable[None]]

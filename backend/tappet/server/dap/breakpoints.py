@@ -8,9 +8,10 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
+from tappet.runtime.debugger.shapes import Hits
 from tappet.server.dap import messages as m
 from tappet.server.dap.connection import Handler
-from tappet.server.dap.debuggee import Breakpoint, Hits, Wanted
+from tappet.server.dap.debuggee import Breakpoint, Wanted
 from tappet.server.dap.view import View
 
 _HIT = re.compile(r"\s*(?P<sign>>=|=|==|%)?\s*(?P<count>\d{1,9})\s*$")

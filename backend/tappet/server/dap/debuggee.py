@@ -8,8 +8,10 @@ Reason: the session is tested on a debuggee in memory; `runtime_debuggee` is the
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, Protocol
+
+from tappet.runtime.debugger.shapes import Hits
 
 HaltReason = Literal["breakpoint", "step", "pause", "data", "run_to", "exception"]
 Command = Literal["continue", "pause", "step_into", "step_over", "step_out"]
@@ -53,14 +55,6 @@ class State:
 
 
 @dataclass(frozen=True, slots=True)
-class Hits:
-    """At which hits a breakpoint halts."""
-
-    mode: Literal["always", "equal", "from", "every"] = "always"
-    count: int = 1
-
-
-@dataclass(frozen=True, slots=True)
 class Wanted:
     """A breakpoint as the user wants it."""
 
@@ -68,7 +62,7 @@ class Wanted:
     variable: str | None = None
     """Of a data breakpoint."""
     condition: str | None = None
-    hits: Hits = Hits()
+    hits: Hits = field(default_factory=Hits)
     log: str | None = None
 
 

@@ -287,8 +287,7 @@ def _id(number: int | None) -> str | None:
 
 def _conditions(wanted: Wanted) -> dict[str, Any]:
     given = {"condition": wanted.condition, "log": wanted.log}
-    hits = shapes.Hits(wanted.hits.mode, wanted.hits.count)
-    return {"hits": hits} | {name: text for name, text in given.items() if text is not None}
+    return {"hits": wanted.hits} | {name: text for name, text in given.items() if text is not None}
 
 
 def _text(value: object) -> str:
