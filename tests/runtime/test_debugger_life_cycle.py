@@ -1,6 +1,7 @@
 """What happens to halted tasks, breakpoints and the instrumented variant when the application changes."""
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import pytest
 from debugger_programs import add, at_line, build_both, halted, line, loaded, step, until, value
@@ -77,6 +78,28 @@ def test_an_online_change_completes_the_cycle_and_drops_the_variant(plc: SoftPlc
     plc.debugger.load(variant)
     assert line(plc) >= 10
     assert plc.debugger.state().breakpoints[0].verified
+
+
+@pytest.mark.parametrize("text", [CHANGED, GROWN])
+def test_no_task_halts_again_in_code_that_an_online_change_drops(
+    plc: SoftPlc, text: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As soon as the tasks go on, the next cycle meets the breakpoint of whatever code it runs."""
+    package, _ = build_both(text, previous=plc.loaded().package)
+    tasks = plc.loaded().tasks
+    standing = tasks.standing
+
+    @contextmanager
+    def then_a_cycle() -> Iterator[None]:
+        with standing():
+            yield
+        cycles = plc.tasks()[0].cycles
+        until(lambda: plc.tasks()[0].cycles > cycles + 1 or bool(plc.debugger.halted_tasks()))
+
+    monkeypatch.setattr(tasks, "standing", then_a_cycle)
+    plc.download(package.to_bytes(), "online_change")
+    before = value(plc, "PLC_PRG.i")
+    until(lambda: value(plc, "PLC_PRG.i") > before)
 
 
 def test_a_download_places_the_breakpoints_again(plc: SoftPlc) -> None:

@@ -6,6 +6,7 @@ stand at their cycle boundary while the image is rearranged.
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -82,17 +83,17 @@ def apply_change(
         and ONLINE_CHANGE_SYMBOL not in package.exports
     )
     old_code = application.code
-    if application.halted:
-        with application.tasks.standing():
-            pass
     if only_code:
-        _end_traces(application, log)
-        application.package = package
-        application.count_change()
-        application.connect_code(code)
-        application.drop_variant()
+        debugged = application.variant is not None
+        # a task that met a breakpoint of the variant meanwhile would wait there for ever
+        with application.tasks.standing() if debugged else nullcontext():
+            _end_traces(application, log)
+            application.package = package
+            application.count_change()
+            application.connect_code(code)
+            application.drop_variant()
         application.tasks.retire(old_code, old_code.close)
-        return ChangeResult(None)
+        return ChangeResult(None, paused=debugged)
     with application.tasks.standing():
         # what FB_Exit does with other objects is to be seen in what they keep
         report = None
