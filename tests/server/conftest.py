@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,7 +9,7 @@ import pytest
 from fake_plc import FakePlc
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from server_clients import CHEAP, PASSWORD, ROLES, browser, script, serving
+from server_clients import CHEAP, ROLES, first_account, script, serving, until
 
 from tappet.server.app import create_app
 from tappet.server.services import Services
@@ -42,10 +41,7 @@ def runtime_id(app: FastAPI, admin: TestClient) -> str:
     answer = admin.post("/api/v1/runtimes", json=body)
     assert answer.status_code == 201, answer.text
     url = f"/api/v1/runtimes/{answer.json()['id']}"
-    end = time.monotonic() + 60
-    while not admin.get(url).json()["connected"]:
-        assert time.monotonic() < end
-        time.sleep(0.005)
+    until(lambda: admin.get(url).json()["connected"])
     return answer.json()["id"]
 
 
@@ -56,13 +52,9 @@ def services(app: FastAPI) -> Services:
 
 
 @pytest.fixture
-def admin(app: FastAPI, services: Services) -> TestClient:
+def admin(app: FastAPI) -> TestClient:
     """The first administrator, logged in."""
-    client = browser(app)
-    token = services.first_account_token
-    body = {"token": token, "username": "admin", "password": PASSWORD}
-    assert client.post("/api/v1/auth/first-account", json=body).status_code == 201
-    return client
+    return first_account(app, "admin")
 
 
 @pytest.fixture

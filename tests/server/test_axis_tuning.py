@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
 import pytest
 from fastapi import FastAPI
-from server_clients import PASSWORD, browser, serving
+from server_clients import CHEAP, RUNTIME, connected, real_app, serving, until
 
-from tappet.server.app import create_app
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 
-RUNTIME = f"/api/v1/runtimes/{LOCAL_RUNTIME}"
 ME, ANOTHER = 5, 6
 BODY = """Spindle.in.bRegulatorRealState := Spindle.out.bRegulatorOn;
 Spindle.in.bDriveStartRealState := Spindle.out.bDriveStart;
@@ -27,13 +24,7 @@ DECLARATION = "PROGRAM PLC_PRG\nVAR\n    fSpeed : LREAL;\n    fPlace : LREAL;\nE
 
 @pytest.fixture(scope="module")
 def machine(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Machine]:
-    settings = ServerSettings(
-        data_dir=tmp_path_factory.mktemp("tuning"),
-        local_runtime=True,
-        local_runtime_options=("--no-realtime",),
-        reconnect_seconds=0.1,
-    )
-    app = create_app(settings)
+    app = real_app(ServerSettings(data_dir=tmp_path_factory.mktemp("tuning"), password_cost=CHEAP))
     with serving(app):
         yield Machine(app)
 
@@ -42,10 +33,7 @@ class Machine:
     """A motion project with an axis of each kind, running."""
 
     def __init__(self, app: FastAPI) -> None:
-        self.client = client = browser(app)
-        body = {"token": app.state.services.first_account_token, "username": "ann", "password": PASSWORD}
-        assert client.post("/api/v1/auth/first-account", json=body).status_code == 201
-        until(lambda: client.get(RUNTIME).json()["connected"], 90)
+        self.client = client = connected(app)
         store = app.state.services.store
         info = store.create_project("Tuned", "ann")
         project = store.load(info.id)
@@ -115,13 +103,6 @@ class Machine:
 
     def measure(self, axis: str, **order: Any) -> Any:
         return self.client.post(f"{RUNTIME}/axes/{axis}/tuning/measure", json={"holder": ME, **order})
-
-
-def until(condition: Any, seconds: float = 20) -> None:
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "did not happen"
-        time.sleep(0.05)
 
 
 def test_a_step_of_a_simulated_drive_gives_gains(machine: Machine) -> None:

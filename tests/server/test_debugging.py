@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from server_clients import PASSWORD, browser, serving
+from server_clients import RUNTIME, connected, real_app, serving, until
 
-from tappet.server.app import create_app
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 
-RUNTIME = f"/api/v1/runtimes/{LOCAL_RUNTIME}"
 DEBUG = f"{RUNTIME}/debug"
 DECLARATION = "PROGRAM PLC_PRG\nVAR\n  n : DINT;\n  half : DINT;\nEND_VAR\nVAR_TEMP\n  t : DINT;\nEND_VAR"
 BODY = "t := n + 1;\nn := t;\nhalf := n / 2;"
@@ -23,27 +19,14 @@ BODY = "t := n + 1;\nn := t;\nhalf := n / 2;"
 
 @pytest.fixture
 def app(settings: ServerSettings) -> Iterator[FastAPI]:
-    app = create_app(
-        replace(settings, local_runtime=True, local_runtime_options=("--no-realtime",), reconnect_seconds=0.1)
-    )
+    app = real_app(settings)
     with serving(app):
         yield app
 
 
 @pytest.fixture
 def engineer(app: FastAPI) -> TestClient:
-    client = browser(app)
-    body = {"token": app.state.services.first_account_token, "username": "ann", "password": PASSWORD}
-    assert client.post("/api/v1/auth/first-account", json=body).status_code == 201
-    until(lambda: client.get(RUNTIME).json()["connected"])
-    return client
-
-
-def until(condition: Callable[[], bool], seconds: float = 60) -> None:
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "did not happen"
-        time.sleep(0.02)
+    return connected(app)
 
 
 def ask(client: TestClient, method: str, path: str, **given: Any) -> Any:

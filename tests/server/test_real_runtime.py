@@ -6,46 +6,32 @@ import os
 import signal
 import struct
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from server_clients import PASSWORD, SOCKETS, browser, serving
+from server_clients import RUNTIME, SOCKETS, connected, first_account, real_app, serving, until
 
 from tappet.project.cams.table import CamTable
 from tappet.server.app import create_app
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 
-RUNTIME = f"/api/v1/runtimes/{LOCAL_RUNTIME}"
 DECLARATION = "PROGRAM PLC_PRG\nVAR\n  n : DINT;\n  half : DINT;\n  d : DINT := 1;\nEND_VAR"
 
 
 @pytest.fixture
 def app(settings: ServerSettings) -> Iterator[FastAPI]:
-    app = create_app(
-        replace(settings, local_runtime=True, local_runtime_options=("--no-realtime",), reconnect_seconds=0.1)
-    )
+    app = real_app(settings)
     with serving(app):
         yield app
 
 
 @pytest.fixture
 def engineer(app: FastAPI) -> TestClient:
-    client = browser(app)
-    body = {"token": app.state.services.first_account_token, "username": "ann", "password": PASSWORD}
-    assert client.post("/api/v1/auth/first-account", json=body).status_code == 201
-    _until(lambda: client.get(RUNTIME).json()["connected"], 90)
-    return client
-
-
-def _until(condition: Callable[[], bool], seconds: float = 20) -> None:
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "did not happen"
-        time.sleep(0.02)
+    return connected(app)
 
 
 def _value(client: TestClient, path: str):
@@ -74,7 +60,7 @@ def test_from_text_to_live_values_and_back(app: FastAPI, engineer: TestClient) -
     done = engineer.post(f"{url}/download", json=order)
     assert done.status_code == 200, done.text
     assert done.json()["state"] == "run"
-    _until(lambda: _value(engineer, "PLC_PRG.n") > 3)
+    until(lambda: _value(engineer, "PLC_PRG.n") > 3)
 
     with engineer.websocket_connect(f"{SOCKETS}/api/v1/online?runtime={LOCAL_RUNTIME}") as socket:
         wish = {"op": "subscribe", "id": 4, "expressions": ["PLC_PRG.n", "PLC_PRG.half"], "interval_ms": 50}
@@ -93,7 +79,7 @@ def test_from_text_to_live_values_and_back(app: FastAPI, engineer: TestClient) -
     assert engineer.post(f"{RUNTIME}/values/write", json=write).json()["values"][0]["value"] == 16
     force = {"values": [{"expression": "PLC_PRG.n", "value": 100}]}
     assert engineer.post(f"{RUNTIME}/values/force", json=force).json()["values"][0]["literal"] == "100"
-    _until(lambda: _value(engineer, "PLC_PRG.n") in (100, 101))
+    until(lambda: _value(engineer, "PLC_PRG.n") in (100, 101))
     assert engineer.post(f"{RUNTIME}/values/unforce", json={"expressions": None}).json()["values"] == []
 
     _save(app, info.id, "n := n - 1;\nhalf := n / 2;")
@@ -103,21 +89,21 @@ def test_from_text_to_live_values_and_back(app: FastAPI, engineer: TestClient) -
     assert changed.json()["state"] == "run"
     assert _value(engineer, "PLC_PRG.d") == 16, "an online change keeps values"
     before = _value(engineer, "PLC_PRG.n")
-    _until(lambda: _value(engineer, "PLC_PRG.n") < before)
+    until(lambda: _value(engineer, "PLC_PRG.n") < before)
     assert engineer.post(f"{url}/login", json=target).json()["relation"] == "same"
     tasks = engineer.get(f"{RUNTIME}/tasks").json()
     assert tasks[0]["iec_cycles"] > 0
     (times,) = engineer.get(f"{RUNTIME}/tasks/histograms").json()
     assert times["name"] == tasks[0]["name"]
     assert sum(one["cycles"] for one in times["classes"]) >= tasks[0]["iec_cycles"]
-    _until(lambda: engineer.get(f"{RUNTIME}/tasks/load").json()["samples"])
+    until(lambda: engineer.get(f"{RUNTIME}/tasks/load").json()["samples"])
     load = engineer.get(f"{RUNTIME}/tasks/load").json()
     assert load["tasks"] == [tasks[0]["name"]]
     assert 0 < load["samples"][-1]["tasks"][0] <= 100
 
     _save(app, info.id, "d := 0;\nn := n / d;")
     assert engineer.post(f"{url}/download", json={**order, "mode": "online_change"}).status_code == 200
-    _until(lambda: engineer.get(RUNTIME).json()["state"] == "exception")
+    until(lambda: engineer.get(RUNTIME).json()["state"] == "exception")
     report = engineer.get(RUNTIME).json()["exception"]
     assert report["name"] == "DIV_ZERO"
     assert report["pou"] == "PLC_PRG"
@@ -146,9 +132,9 @@ def test_a_killed_runtime_comes_back_with_its_application(app: FastAPI, engineer
     assert engineer.post(f"{url}/download", json=order).status_code == 200
     first = engineer.get(RUNTIME).json()
     os.kill(app.state.services.local_runtime._process.endpoint.pid, signal.SIGKILL)
-    _until(lambda: not engineer.get(RUNTIME).json()["connected"])
+    until(lambda: not engineer.get(RUNTIME).json()["connected"])
     assert "SIGKILL" in engineer.get(RUNTIME).json()["problem"]
-    _until(lambda: engineer.get(RUNTIME).json()["connected"], 60)
+    until(lambda: engineer.get(RUNTIME).json()["connected"], 60)
     again = engineer.get(RUNTIME).json()
     assert (again["state"], again["code_id"]) == ("run", first["code_id"])
     assert engineer.post(f"{url}/login", json={"runtime_id": LOCAL_RUNTIME}).json()["relation"] == "same"
@@ -159,27 +145,22 @@ def test_a_runtime_that_does_not_start_is_tried_again_and_says_why(settings: Ser
     folder = settings.data_dir / "runtime"
     settings.data_dir.mkdir(parents=True, exist_ok=True)
     folder.write_text("no folder")
-    options = replace(
-        settings, local_runtime=True, local_runtime_options=("--no-realtime",), reconnect_seconds=0.1
-    )
-    app = create_app(options)
+    app = real_app(settings)
     with serving(app):
-        client = browser(app)
-        body = {"token": app.state.services.first_account_token, "username": "ann", "password": PASSWORD}
-        assert client.post("/api/v1/auth/first-account", json=body).status_code == 201
+        client = first_account(app)
 
         def listed() -> dict[str, Any]:
             (one,) = client.get("/api/v1/runtimes").json()
             return one
 
-        _until(lambda: "next attempt" in (listed()["problem"] or ""), 90)
+        until(lambda: "next attempt" in (listed()["problem"] or ""), 90)
         shown = listed()
         assert not shown["connected"]
         assert "did not come up: " in shown["problem"]
         assert "runtime" in shown["problem"]
-        _until(lambda: listed()["problem"] != shown["problem"], 90)  # tried again, after a longer pause
+        until(lambda: listed()["problem"] != shown["problem"], 90)  # tried again, after a longer pause
         folder.unlink()
-        _until(lambda: listed()["connected"], 90)
+        until(lambda: listed()["connected"], 90)
         assert listed()["problem"] is None
 
 
@@ -189,7 +170,7 @@ def test_a_server_ends_while_its_runtime_does_not_start(settings: ServerSettings
     app = create_app(replace(settings, local_runtime=True, reconnect_seconds=3600.0))
     with serving(app):
         link = app.state.services.runtimes.get(LOCAL_RUNTIME)
-        _until(lambda: "next attempt" in (link.problem or ""), 90)
+        until(lambda: "next attempt" in (link.problem or ""), 90)
 
 
 def test_an_axis_is_moved_by_hand_and_let_go_when_nobody_is_there(app: FastAPI, engineer: TestClient) -> None:
@@ -198,7 +179,7 @@ def test_an_axis_is_moved_by_hand_and_let_go_when_nobody_is_there(app: FastAPI, 
     url = f"/api/v1/projects/{made['id']}/applications/{application.id}"
     order = {"runtime_id": LOCAL_RUNTIME, "mode": "download", "start": True}
     assert engineer.post(f"{url}/download", json=order).status_code == 200
-    _until(lambda: _value(engineer, "Drive.fSetVelocity") != 0.0)
+    until(lambda: _value(engineer, "Drive.fSetVelocity") != 0.0)
     panel = f"{RUNTIME}/axes/Drive/panel"
 
     def alive() -> str:
@@ -207,18 +188,18 @@ def test_an_axis_is_moved_by_hand_and_let_go_when_nobody_is_there(app: FastAPI, 
         return str(answer.json()["state"])
 
     assert engineer.post(panel, json={"holder": 5, "action": "force"}).status_code == 200
-    _until(lambda: alive() == "Control")
+    until(lambda: alive() == "Control")
     refused = engineer.post(panel, json={"holder": 6, "action": "power_on"})
     assert refused.status_code == 409
     assert "another page controls the axis 'Drive'" in refused.json()["detail"]
     assert engineer.post(panel, json={"holder": 5, "action": "fly"}).status_code == 422
     missing = engineer.post(f"{RUNTIME}/axes/Nobody/panel", json={"holder": 5, "action": "take"})
     assert missing.status_code == 404
-    _until(lambda: engineer.post(f"{panel}/alive", json={"holder": 6}).json()["state"] == "Free")
+    until(lambda: engineer.post(f"{panel}/alive", json={"holder": 6}).json()["state"] == "Free")
     assert _value(engineer, "Drive.fSetVelocity") == 0.0  # what the program had begun has failed
     back = {"expression": "PLC_PRG.xBack", "value": not _value(engineer, "PLC_PRG.xBack")}
     assert engineer.post(f"{RUNTIME}/values/write", json={"values": [back]}).status_code == 200
-    _until(lambda: _value(engineer, "Drive.fSetVelocity") != 0.0)  # it has the axis again
+    until(lambda: _value(engineer, "Drive.fSetVelocity") != 0.0)  # it has the axis again
     acts = [entry for entry in engineer.get("/api/v1/audit").json() if entry["action"] == "axis-panel"]
     assert {(entry["subject"], entry["new_value"]) for entry in acts} >= {("Drive", "force 0.0")}
     assert all("alive" not in str(entry["new_value"]) for entry in acts)
@@ -247,7 +228,7 @@ END_VAR"""
     order = {"runtime_id": LOCAL_RUNTIME, "mode": "download", "start": True}
     done = engineer.post(f"{url}/download", json=order)
     assert done.status_code == 200, done.text
-    _until(lambda: _value(engineer, "PLC_PRG.stValues.dY") == 41.25)
+    until(lambda: _value(engineer, "PLC_PRG.stValues.dY") == 41.25)
 
     cam = CamTable().model_dump(mode="json")
     lift = f"{RUNTIME}/cams/Lift"
@@ -259,7 +240,7 @@ END_VAR"""
     cam["tracks"][0]["tappets"][0]["x"] = 95
     assert engineer.post(f"{lift}/write", json={"cam": cam}).status_code == 204
     # half way: 10/8 - 15/16 + 6/32 of the rise, 4/8 - 7/16 + 3/32 of the slope at the end less
-    _until(lambda: _value(engineer, "PLC_PRG.stValues.dY") == 60 * 0.5 - 0.5 * 120 * 0.15625)
+    until(lambda: _value(engineer, "PLC_PRG.stValues.dY") == 60 * 0.5 - 0.5 * 120 * 0.15625)
     read = engineer.post(f"{lift}/read", json={"cam": CamTable().model_dump(mode="json")}).json()
     assert not read["same"]
     assert read["cam"]["points"] == cam["points"]
@@ -279,4 +260,4 @@ END_VAR"""
 
     _save(app, info.id, "Lift.pce := ADR(stValues);", declaration)
     assert engineer.post(f"{url}/download", json=order).status_code == 200
-    _until(lambda: engineer.post(f"{lift}/read", json={"cam": cam}).status_code == 409)
+    until(lambda: engineer.post(f"{lift}/read", json={"cam": cam}).status_code == 409)

@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-import time
-from collections.abc import Callable
 
 from fake_plc import FakePlc, division_by_zero
 from fastapi.testclient import TestClient
+from server_clients import until
 
 from tappet.server.runtimes.links import PlcClient, RuntimeLink
 
 URL = "/api/v1/runtimes"
-
-
-def until(condition: Callable[[], bool], seconds: float = 60.0) -> None:
-    """Waits for what happens in the background."""
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "did not happen"
-        time.sleep(0.01)
 
 
 def test_state_start_stop(admin: TestClient, runtime_id: str, plc: FakePlc) -> None:

@@ -5,9 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import sys
-import time
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +14,8 @@ import pyarrow.parquet as pq
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from server_clients import CHEAP, PASSWORD, browser, serving
+from server_clients import CHEAP, RUNTIME, connected, real_app, serving, until
 
-from tappet.server.app import create_app
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 from tappet.traces.formats import write_trace
 from tappet.traces.recording import RecordInfo
@@ -27,7 +24,6 @@ from tappet.traces.samples import Batch, BatchSamples, ChannelInfo
 sys.path.insert(0, str(Path(__file__).parents[1] / "traces"))
 from sampled_batches import read_window
 
-RUNTIME = f"/api/v1/runtimes/{LOCAL_RUNTIME}"
 TRACES = f"{RUNTIME}/traces"
 RECORDINGS = "/api/v1/recordings"
 DECLARATION = """PROGRAM PLC_PRG
@@ -51,30 +47,17 @@ DATA = {
 }
 
 
-def _until(condition: Callable[[], Any], seconds: float = 60) -> None:
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "did not happen"
-        time.sleep(0.02)
-
-
 @pytest.fixture(scope="module")
 def traced_app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[FastAPI]:
     settings = ServerSettings(data_dir=tmp_path_factory.mktemp("data"), password_cost=CHEAP)
-    options = {"local_runtime": True, "local_runtime_options": ("--no-realtime",), "reconnect_seconds": 0.1}
-    app = create_app(replace(settings, **options))
+    app = real_app(settings)
     with serving(app):
         yield app
 
 
 @pytest.fixture(scope="module")
 def logged_in(traced_app: FastAPI) -> TestClient:
-    client = browser(traced_app)
-    token = traced_app.state.services.first_account_token
-    body = {"token": token, "username": "ann", "password": PASSWORD}
-    assert client.post("/api/v1/auth/first-account", json=body).status_code == 201
-    _until(lambda: client.get(RUNTIME).json()["connected"], 90)
-    return client
+    return connected(traced_app)
 
 
 def _save(app: FastAPI, project_id: str, body: str) -> None:
@@ -133,7 +116,7 @@ def test_a_trace_runs_and_everybody_sees_the_same(client: TestClient) -> None:
         (3, "BOOL"),
         (4, "LREAL"),
     ]
-    _until(lambda: _state(client)["records"][0]["samples"] > 120)
+    until(lambda: _state(client)["records"][0]["samples"] > 120)
     found = _window(client)
     s, twice, odd, half = found["values"]
     assert found["count"] == 100
@@ -153,7 +136,7 @@ def test_a_trace_runs_and_everybody_sees_the_same(client: TestClient) -> None:
 
 def test_a_window_of_time_has_its_neighbours(client: TestClient) -> None:
     _download(client)
-    _until(lambda: _state(client)["records"][0]["samples"] > 60)
+    until(lambda: _state(client)["records"][0]["samples"] > 60)
     client.post(f"{TRACES}/Trace/stop")
     whole = _window(client)
     origin = int(whole["origin_ns"])
@@ -186,7 +169,7 @@ def test_trigger_stop_start_and_reset(client: TestClient) -> None:
     record = DATA["records"][0]
     trigger = {"variable": "PLC_PRG.s MOD 200", "edge": "positive", "level": "150", "position": 25}
     _download(client, {"records": [{**record, "trigger": trigger}]})
-    _until(lambda: _state(client)["records"][0]["state"] == "done")
+    until(lambda: _state(client)["records"][0]["state"] == "done")
     state = _state(client)["records"][0]
     assert state["trigger"]["percent"] == 100
     found = _window(client)
@@ -253,7 +236,7 @@ def test_long_term_recording_keeps_every_sample(client: TestClient) -> None:
     again = client.post(f"{TRACES}/Trace/recording", json={})
     assert again.json()["type"] == "urn:tappet:problem:still-recording"
     assert client.delete(url).status_code == 409
-    _until(lambda: client.get(url).json()["records"][0]["samples"] > 250)
+    until(lambda: client.get(url).json()["records"][0]["samples"] > 250)
     assert _state(client)["recording"]["title"] == "Run 1"
     ended = client.delete(f"{TRACES}/Trace/recording").json()
     assert (ended["state"], ended["lost"], ended["problem"]) == ("complete", 0, None)
@@ -267,14 +250,14 @@ def test_long_term_recording_keeps_every_sample(client: TestClient) -> None:
     assert small["low"][0][0] == raw["values"][0][0]
     assert small["high"][0][-1] == raw["values"][0][-1]
     timed = client.post(f"{TRACES}/Trace/recording", json={"seconds": 1}).json()
-    _until(lambda: client.get(f"{RECORDINGS}/{timed['id']}").json()["state"] == "complete")
+    until(lambda: client.get(f"{RECORDINGS}/{timed['id']}").json()["state"] == "complete")
 
 
 def test_a_recording_ends_with_its_trace(client: TestClient) -> None:
     _download(client)
     begun = client.post(f"{TRACES}/Trace/recording", json={}).json()
     client.delete(f"{TRACES}/Trace")
-    _until(lambda: client.get(f"{RECORDINGS}/{begun['id']}").json()["state"] == "interrupted")
+    until(lambda: client.get(f"{RECORDINGS}/{begun['id']}").json()["state"] == "interrupted")
     found = client.get(f"{RECORDINGS}/{begun['id']}").json()
     assert found["problem"] == "The trace was ended, or downloaded again."
     assert found["title"] == "Trace"
@@ -283,7 +266,7 @@ def test_a_recording_ends_with_its_trace(client: TestClient) -> None:
 def test_files_and_stored_recordings(client: TestClient, tmp_path: Path, project: tuple[str, str]) -> None:
     """TRC-90, TRC-91: what is saved is loaded again as it was."""
     _download(client)
-    _until(lambda: _state(client)["records"][0]["samples"] > 120)
+    until(lambda: _state(client)["records"][0]["samples"] > 120)
     client.post(f"{TRACES}/Trace/stop")
     shown = _window(client)
     stored = client.post(f"{TRACES}/Trace/snapshot", json={"title": "A", "project_id": project[0]}).json()

@@ -7,6 +7,8 @@ import contextlib
 import os
 import sys
 import threading
+from collections.abc import Awaitable, Callable, Coroutine
+from typing import Any, BinaryIO
 
 MAX_MESSAGE = 64 * 1024 * 1024
 """Bytes of one message."""
@@ -64,3 +66,39 @@ def standard_input() -> asyncio.StreamReader:
 
     threading.Thread(target=feed, name="stdin", daemon=True).start()
     return reader
+
+
+async def serve_frames(
+    reader: asyncio.StreamReader, receive: Callable[[str], Awaitable[None]], ended: asyncio.Event
+) -> None:
+    """Give each message to `receive` until the stream or the conversation ends. Raises FrameError."""
+    leaving = asyncio.create_task(ended.wait())
+    try:
+        while not ended.is_set():
+            reading = asyncio.create_task(read_message(reader))
+            await asyncio.wait({reading, leaving}, return_when=asyncio.FIRST_COMPLETED)
+            if not reading.done():
+                reading.cancel()
+                return
+            message = reading.result()
+            if message is None:
+                return
+            await receive(message)
+    finally:
+        leaving.cancel()
+
+
+def run_on_standard_streams(
+    name: str, serve: Callable[[asyncio.StreamReader, BinaryIO], Coroutine[Any, Any, None]]
+) -> int:
+    """The exit code of a process that serves one client; what the client did wrong goes to standard error."""
+
+    async def run() -> None:
+        await serve(standard_input(), sys.stdout.buffer)
+
+    try:
+        asyncio.run(run())
+    except FrameError as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        return 2
+    return 0

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import sys
+from functools import partial
 from typing import BinaryIO
 
 from tappet.server.dap.session import Begin, DebugSession
-from tappet.server.framed_messages import FrameError, frame, read_message, standard_input
+from tappet.server.framed_messages import frame, run_on_standard_streams, serve_frames
 
 
 async def serve(begin: Begin, reader: asyncio.StreamReader, output: BinaryIO) -> None:
@@ -18,32 +18,12 @@ async def serve(begin: Begin, reader: asyncio.StreamReader, output: BinaryIO) ->
         output.flush()
 
     session = DebugSession(send, begin)
-    leaving = asyncio.create_task(session.ended.wait())
     try:
-        while not session.ended.is_set():
-            reading = asyncio.create_task(read_message(reader))
-            await asyncio.wait({reading, leaving}, return_when=asyncio.FIRST_COMPLETED)
-            if not reading.done():
-                reading.cancel()
-                return
-            message = reading.result()
-            if message is None:
-                return
-            await session.receive(message)
+        await serve_frames(reader, session.receive, session.ended)
     finally:
-        leaving.cancel()
         await session.close()
 
 
 def main(begin: Begin) -> int:
     """Serve the client on the standard streams; the exit code of the process."""
-
-    async def run() -> None:
-        await serve(begin, standard_input(), sys.stdout.buffer)
-
-    try:
-        asyncio.run(run())
-    except FrameError as error:
-        print(f"tappet dap: {error}", file=sys.stderr)
-        return 2
-    return 0
+    return run_on_standard_streams("tappet dap", partial(serve, begin))

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-import sys
+from functools import partial
 from pathlib import Path
 from typing import BinaryIO
 
-from tappet.server.framed_messages import FrameError, frame, read_message, standard_input
+from tappet.server.framed_messages import frame, run_on_standard_streams, serve_frames
 from tappet.server.lsp.folder_programs import FolderPrograms, canonical_uri
 from tappet.server.lsp.project_analysis import ProjectAnalysis
 from tappet.server.lsp.rpc import Outgoing
@@ -23,33 +23,13 @@ async def serve(root: Path, reader: asyncio.StreamReader, output: BinaryIO) -> N
 
     analysis = ProjectAnalysis(FolderPrograms(root))
     session = LanguageSession(analysis, send, advise=True, canonical=canonical_uri)
-    leaving = asyncio.create_task(session.exit.wait())
     try:
-        while not session.exit.is_set():
-            reading = asyncio.create_task(read_message(reader))
-            await asyncio.wait({reading, leaving}, return_when=asyncio.FIRST_COMPLETED)
-            if not reading.done():
-                reading.cancel()
-                return
-            message = reading.result()
-            if message is None:
-                return
-            await session.receive(message)
+        await serve_frames(reader, session.receive, session.exit)
     finally:
-        leaving.cancel()
         await session.close()
         await analysis.close()
 
 
-async def _serve_standard_streams(root: Path) -> None:
-    await serve(root, standard_input(), sys.stdout.buffer)
-
-
 def main(root: Path) -> int:
     """Serve the client on the standard streams; the exit code of the process."""
-    try:
-        asyncio.run(_serve_standard_streams(root))
-    except FrameError as error:
-        print(f"tappet lsp: {error}", file=sys.stderr)
-        return 2
-    return 0
+    return run_on_standard_streams("tappet lsp", partial(serve, root))
