@@ -9,6 +9,7 @@ from plc_programs import MS, watchdog
 
 from tappet.codegen.debug_code import DebugCode
 from tappet.iec.task import Task
+from tappet.runtime.debugger.shapes import Settings
 from tappet.runtime.errors import PlcError
 from tappet.runtime.plc import SoftPlc
 
@@ -250,8 +251,6 @@ TASKS = (
 
 
 def test_other_tasks_run_or_halt() -> None:
-    from tappet.runtime.debugger.shapes import Settings
-
     plc = loaded(TWO, TASKS)
     try:
         add(plc, 12)
@@ -286,8 +285,6 @@ END_PROGRAM
 
 @pytest.mark.parametrize(("outputs", "expected"), [("keep", 77), ("safe", 0)])
 def test_outputs_while_halted(outputs: str, expected: int) -> None:
-    from tappet.runtime.debugger.shapes import Settings
-
     plc = loaded(OUTPUTS)
     try:
         plc.debugger.set_settings(Settings(outputs=outputs))  # type: ignore[arg-type]
@@ -297,6 +294,54 @@ def test_outputs_while_halted(outputs: str, expected: int) -> None:
         add(plc, 8)
         halted(plc)
         assert sent() == expected
+        plc.debugger.remove(None)
+        plc.debugger.control("continue")
+        until(lambda: sent() == 77)
+    finally:
+        plc.close()
+
+
+THREE = """PROGRAM Writer
+VAR q AT %QB0 : BYTE; END_VAR
+q := 77;
+END_PROGRAM
+PROGRAM First
+VAR i : DINT; END_VAR
+i := i + 1;
+END_PROGRAM
+PROGRAM Second
+VAR i : DINT; END_VAR
+i := i + 1;
+END_PROGRAM
+"""
+
+
+def test_outputs_stay_safe_until_the_task_that_made_them_so_goes_on() -> None:
+    """Another task, which had halted while outputs were kept, ends nothing."""
+    tasks = (
+        Task("WriterTask", "cyclic", 2 * MS, 1, programs=("Writer",)),
+        Task("FirstTask", "cyclic", 3 * MS, 2, programs=("First",)),
+        Task("SecondTask", "cyclic", 4 * MS, 3, programs=("Second",)),
+    )
+    plc = loaded(THREE, tasks)
+    sent: Callable[[], int] = lambda: plc.loaded().outputs()[0]  # noqa: E731
+    try:
+        plc.start()
+        until(lambda: sent() == 77)
+        add(plc, 7)
+        halted(plc)
+        assert sent() == 77
+        plc.debugger.set_settings(Settings(outputs="safe"))
+        add(plc, 11)
+        until(lambda: len(plc.debugger.halted_tasks()) == 2)
+        until(lambda: sent() == 0)
+        plc.debugger.remove(1)
+        plc.debugger.control("continue", "FirstTask")
+        for name in ("FirstTask", "WriterTask"):
+            at = [task.name for task in plc.tasks()].index(name)
+            cycles = plc.tasks()[at].cycles
+            until(lambda at=at, cycles=cycles: plc.tasks()[at].cycles > cycles + 3)  # type: ignore[misc]
+        assert sent() == 0
         plc.debugger.remove(None)
         plc.debugger.control("continue")
         until(lambda: sent() == 77)
