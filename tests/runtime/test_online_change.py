@@ -1,14 +1,18 @@
 """Online change: values stay, code changes, forces and recorders find their variables again."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from plc_programs import MS, build
 
 from tappet.iec.task import Task
-from tappet.runtime.errors import PlcError
+from tappet.runtime.errors import OtherApplicationError, PlcError
+from tappet.runtime.forces import PlacedValue
 from tappet.runtime.local import LocalRuntime
 from tappet.runtime.online_change import OnlineChangeError, check_change
+from tappet.runtime.places import Place
+from tappet.runtime.plc import SoftPlc
 
 ONE = """
 PROGRAM PLC_PRG
@@ -238,3 +242,29 @@ def test_the_changed_application_boots(tmp_path: Path) -> None:
     assert plc.boot()
     assert plc.info().code_id == code_id
     plc.close()
+
+
+@pytest.mark.parametrize("act", ["read", "write", "force", "unforce"])
+def test_places_of_the_application_before_mean_nothing_any_more(act: str) -> None:
+    """An order that was under way during the change names other variables: nothing is done."""
+    plc = SoftPlc(None)
+    plc.load(build("PROGRAM PLC_PRG\nVAR a : DINT := 1; END_VAR\na := a;\nEND_PROGRAM"))
+    try:
+        old = plc.loaded().package
+        place = plc.symbols().resolve("PLC_PRG.a")
+        text = "PROGRAM PLC_PRG\nVAR a : DINT := 1; b : DINT := 2; END_VAR\nb := a + 1;\nEND_PROGRAM"
+        plc.download(build(text, previous=old).to_bytes(), "online_change")
+        values = [PlacedValue(Place(place.offset, 4), b"\x09\0\0\0")]
+        orders: dict[str, Callable[[], object]] = {
+            "read": lambda: plc.read([(place.offset, 4)], old.code_id),
+            "write": lambda: plc.write(values, old.code_id),
+            "force": lambda: plc.force(values, code_id=old.code_id),
+            "unforce": lambda: plc.unforce(None, code_id=old.code_id),
+        }
+        with pytest.raises(OtherApplicationError, match="nothing was done"):
+            orders[act]()
+        image = plc.loaded().image
+        assert b"\x09\0\0\0" not in image.read(0, image.size)
+        assert not plc.forces()
+    finally:
+        plc.close()

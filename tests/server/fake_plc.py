@@ -14,7 +14,7 @@ from tappet.codegen.symbol_types import MemberInfo, TypeInfo
 from tappet.iec import places as iec_places
 from tappet.runtime import protocol
 from tappet.runtime.client import RuntimeEvent, RuntimeRefused
-from tappet.runtime.errors import NoApplicationError, NoTraceError, PlcError
+from tappet.runtime.errors import NoApplicationError, NoTraceError, OtherApplicationError, PlcError
 from tappet.runtime.exception_report import CallFrame, ExceptionReport
 from tappet.runtime.flight import FlightStatus
 from tappet.runtime.flight_recording import FlightRecording
@@ -209,10 +209,16 @@ class FakePlc:
             self.code_id = self.data_id = self.symbol_map = None
         self.notify("state")
 
-    def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
+    def _check(self, code_id: str) -> None:
+        if code_id not in ("", self.code_id):
+            raise OtherApplicationError
+
+    def read(self, places: Sequence[tuple[int, int]], code_id: str = "") -> list[bytes]:
+        self._check(code_id)
         return [bytes(self.image[offset : offset + size]) for offset, size in places]
 
-    def write(self, values: Sequence[PlacedValue]) -> Callable[[], bool]:
+    def write(self, values: Sequence[PlacedValue], code_id: str = "") -> Callable[[], bool]:
+        self._check(code_id)
         for value in values:
             offset, bit = value.place.offset, value.place.bit
             if bit is None:
@@ -223,13 +229,16 @@ class FakePlc:
                 self.image[offset] &= ~(1 << bit)
         return lambda: True
 
-    def force(self, values: Sequence[PlacedValue], origin: Origin = NOBODY) -> None:
-        self.write(values)
+    def force(self, values: Sequence[PlacedValue], origin: Origin = NOBODY, code_id: str = "") -> None:
+        self.write(values, code_id)
         self.forced |= {(value.place.offset, value.place.bit): value.data for value in values}
         self.origins |= {(value.place.offset, value.place.bit): origin for value in values}
         self.notify("forces")
 
-    def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
+    def unforce(
+        self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False, code_id: str = ""
+    ) -> int:
+        self._check(code_id)
         released = [self.forced.pop(key, None) for key in (list(self.forced) if keys is None else keys)]
         self.notify("forces")
         return sum(data is not None for data in released)

@@ -27,6 +27,8 @@ class Socket:
         self._socket = socket
         self._number = 0
         self.events: list[dict[str, Any]] = []
+        self.told: list[dict[str, Any]] = []
+        """Events that were looked at."""
 
     def ask(self, command: str, **arguments: Any) -> dict[str, Any]:
         self._number += 1
@@ -47,7 +49,8 @@ class Socket:
         while not any(event["event"] == name for event in self.events):
             self.events.append(json.loads(self._socket.receive_text()))
         found = next(event for event in self.events if event["event"] == name)
-        self.events = self.events[self.events.index(found) + 1 :]
+        at = self.events.index(found)
+        self.told, self.events = [*self.told, *self.events[: at + 1]], self.events[at + 1 :]
         return found["body"]
 
 
@@ -99,6 +102,19 @@ def test_a_session_on_what_was_downloaded(app: FastAPI, engineer: TestClient) ->
     assert ("write", "PLC_PRG.n") in acts
     state = engineer.get(f"/api/v1/runtimes/{LOCAL_RUNTIME}/debug").json()
     assert (state["halted"], state["breakpoints"]) == ([], [])
+    with engineer.websocket_connect(URL, headers=PAGE) as socket:
+        client = Socket(socket)
+        client.body("initialize", adapterID="tappet")
+        client.body("attach")
+        client.body("configurationDone")
+        item = store.load(info.id).objects[item.id]
+        store.save(info.id, item.id, item.revision, {**texts, "implementation": f"{BODY}\nn := 0;"}, "ann")
+        assert engineer.post(url, json={**order, "mode": "online_change"}).status_code == 200
+        client.event("terminated")
+        assert "another application now: attach again" in str(client.told)
+        assert (
+            "attach first" in client.ask("evaluate", expression="PLC_PRG.n := 3", context="repl")["message"]
+        )
 
 
 def test_who_may_only_look_may_not_debug(app: FastAPI, engineer: TestClient) -> None:  # noqa: F811

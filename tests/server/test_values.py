@@ -196,3 +196,20 @@ def test_strange_expressions_end_in_a_sentence(text: str) -> None:
 
 def test_json_has_no_infinities() -> None:
     assert json_value({"a": [float("inf"), 1.0], "b": float("nan")}) == {"a": [None, 1.0], "b": None}
+
+
+@pytest.mark.parametrize("act", ["write", "force", "unforce"])
+def test_nothing_is_done_to_an_application_that_the_server_does_not_know_yet(
+    admin: TestClient, url: str, plc: FakePlc, act: str
+) -> None:
+    """Places of one application are other variables of the next one."""
+    _write(admin, url, {"PLC_PRG.nCount": 5})
+    plc.code_id = "code2"  # changed by somebody else a moment ago
+    values = {"values": [{"expression": "PLC_PRG.nCount", "value": 7}]}
+    body = {"expressions": ["PLC_PRG.nCount"]} if act == "unforce" else values
+    answer = admin.post(f"{url}/values/{act}", json=body)
+    assert answer.status_code == 409
+    assert "the application was changed meanwhile; nothing was done, try again" in answer.json()["detail"]
+    plc.code_id = "code1"
+    assert _read(admin, url, "PLC_PRG.nCount")[0]["value"] == 5
+    assert (plc.forced, admin.get("/api/v1/audit").json()[0]["result"]) == ({}, "refused")

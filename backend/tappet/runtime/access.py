@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.runtime import monitoring
 from tappet.runtime.application import LoadedApplication
-from tappet.runtime.errors import NoApplicationError, NoTraceError, PlcError
+from tappet.runtime.errors import NoApplicationError, NoTraceError, OtherApplicationError, PlcError
 from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.flight import FlightRecorder, FlightStatus
 from tappet.runtime.flight_recording import FlightRecording
@@ -55,9 +55,12 @@ class ApplicationAccess:
         """Tell listeners of a change."""
         self._notify(kind)
 
-    def _need(self) -> LoadedApplication:
+    def _need(self, code_id: str = "") -> LoadedApplication:
+        """The application, which has to be the one that is meant where a code id is given."""
         if self.application is None:
             raise NoApplicationError
+        if code_id not in ("", self.application.package.code_id):
+            raise OtherApplicationError
         return self.application
 
     def _notify(self, kind: str) -> None:
@@ -80,11 +83,11 @@ class ApplicationAccess:
         package = self._need().package
         return package.code_id, package.symbols
 
-    def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
+    def read(self, places: Sequence[tuple[int, int]], code_id: str = "") -> list[bytes]:
         """Bytes at (offset, size) places of the image; properties that are monitored by a call are as of now
-        where the tasks run."""
+        where the tasks run. OtherApplicationError when `code_id` is that of another application."""
         with self._lock:
-            application = self._need()
+            application = self._need(code_id)
             asked = application.watched.lease(places)
         end = time.monotonic() + _PATIENCE_S
         while asked and application.calls_watched and time.monotonic() < end:
@@ -93,12 +96,15 @@ class ApplicationAccess:
                 if self.application is not application or application.watched.arrived(asked):
                     break
         with self._lock:
-            return self._need().read(places)
+            return self._need(code_id).read(places)
 
-    def write(self, values: Sequence[PlacedValue]) -> Callable[[], bool]:
-        """Store values together at a cycle begin; the result says, when called, whether it has happened."""
+    def write(self, values: Sequence[PlacedValue], code_id: str = "") -> Callable[[], bool]:
+        """Store values together at a cycle begin; the result says, when called, whether it has happened.
+
+        OtherApplicationError when `code_id` is that of another application.
+        """
         with self._lock:
-            application = self._need()
+            application = self._need(code_id)
             try:
                 tickets = application.write(values)
             except TaskError as error:
@@ -110,16 +116,18 @@ class ApplicationAccess:
 
         return done
 
-    def force(self, values: Sequence[PlacedValue], origin: Origin = NOBODY) -> None:
-        """Hold variables at values until released."""
+    def force(self, values: Sequence[PlacedValue], origin: Origin = NOBODY, code_id: str = "") -> None:
+        """Hold variables at values until released. OtherApplicationError as in `write`."""
         with self._lock:
-            self._need().force(values, origin)
+            self._need(code_id).force(values, origin)
             self._notify("forces")
 
-    def unforce(self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False) -> int:
-        """Release forces, all with None; returns how many."""
+    def unforce(
+        self, keys: Iterable[tuple[int, int | None]] | None, *, restore: bool = False, code_id: str = ""
+    ) -> int:
+        """Release forces, all with None; returns how many. OtherApplicationError as in `write`."""
         with self._lock:
-            released = self._need().unforce(keys, restore=restore)
+            released = self._need(code_id).unforce(keys, restore=restore)
             if released:
                 self._notify("forces")
             return len(released)

@@ -18,6 +18,13 @@ class NoApplicationError(PlcError):
         super().__init__("no application is loaded; download one first")
 
 
+class OtherApplicationError(PlcError):
+    """Places are those of another application than the loaded one; nothing was done."""
+
+    def __init__(self) -> None:
+        super().__init__("the application was changed meanwhile; nothing was done, try again")
+
+
 class NoTraceError(PlcError):
     """There is no trace, or no record of one, as it is asked for."""
 

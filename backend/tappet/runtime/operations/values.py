@@ -25,6 +25,10 @@ from tappet.runtime.places import Place
 if TYPE_CHECKING:
     from tappet.runtime.plc import SoftPlc
 
+CodeId = Annotated[
+    Text,
+    Meta(description="Of the application whose places these are; refused when it is not the loaded one."),
+]
 WRITE_TIMEOUT_S = 1.0
 _POLL_S = 0.001
 
@@ -50,10 +54,11 @@ class Read(Operation[list[bytes]], frozen=True):
     op: ClassVar[str] = "read"
     of_recordings: ClassVar[bool] = True
     places: Places
+    code_id: CodeId = ""
 
     def run(self, plc: SoftPlc) -> list[bytes]:
         """Waits for properties that are monitored by a call."""
-        return plc.read(self.places)
+        return plc.read(self.places, self.code_id)
 
 
 class Write(SessionOperation[bool], frozen=True):
@@ -64,10 +69,11 @@ class Write(SessionOperation[bool], frozen=True):
 
     op: ClassVar[str] = "write"
     values: Values
+    code_id: CodeId = ""
 
     async def serve(self, session: Session) -> bool:
         """Waits without a thread of its own."""
-        done = await asyncio.to_thread(session.plc.write, _placed(self.values))
+        done = await asyncio.to_thread(session.plc.write, _placed(self.values), self.code_id)
         waited = 0.0
         while not (finished := await asyncio.to_thread(done)) and waited < WRITE_TIMEOUT_S:
             await asyncio.sleep(_POLL_S)
@@ -82,10 +88,11 @@ class Force(Operation[None], frozen=True):
     values: Values
     user: Text = ""
     source: Text = ""
+    code_id: CodeId = ""
 
     def run(self, plc: SoftPlc) -> None:
         """From the next cycle on."""
-        plc.force(_placed(self.values), Origin(self.user, self.source, time.time_ns()))
+        plc.force(_placed(self.values), Origin(self.user, self.source, time.time_ns()), self.code_id)
 
 
 class Unforce(Operation[int], frozen=True):
@@ -94,10 +101,11 @@ class Unforce(Operation[int], frozen=True):
     op: ClassVar[str] = "unforce"
     keys: Annotated[list[tuple[Offset, Bit | None]], Meta(max_length=MAX_ITEMS)] | None
     restore: bool = False
+    code_id: CodeId = ""
 
     def run(self, plc: SoftPlc) -> int:
         """How many were released."""
-        return plc.unforce(self.keys, restore=self.restore)
+        return plc.unforce(self.keys, restore=self.restore, code_id=self.code_id)
 
 
 class ListForces(Operation[list[ForcedValue]], frozen=True):

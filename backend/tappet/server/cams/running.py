@@ -23,7 +23,7 @@ class CamOfApplication:
     def __init__(self, link: RuntimeLink, name: str) -> None:
         self._link = link
         self._name = name
-        self._symbols = link.loaded_symbols()
+        self._symbols, self._code_id = link.loaded_symbols(), link.code_id
         path = f"{VARIABLES.format(name=name)}.{name}"
         cam, elements = self._found(path), self._found(f"{path}_A")
         if cam is None or elements is None:
@@ -44,7 +44,7 @@ class CamOfApplication:
         cam = cls(link, name)
         refs = [ref for ref in (cam._cam, cam._elements, cam._list, cam._tappets) if ref is not None]
         async with link.client() as client:
-            read = await client.call(Read([(ref.offset, ref.size) for ref in refs]))
+            read = await client.call(Read([(ref.offset, ref.size) for ref in refs], cam._code_id))
         cam._bytes = dict(zip((ref.path for ref in refs), read, strict=True))
         cam._check_place()
         return cam
@@ -71,7 +71,7 @@ class CamOfApplication:
                 orders.append((self._cam.offset + member.offset, data, None))
         await begin()
         async with self._link.client() as client:
-            if not await client.call(Write(orders)):
+            if not await client.call(Write(orders, self._code_id)):
                 text = "The task takes too long; the cam is written at the beginning of its next cycle."
                 raise Problem(503, "not-yet-written", text)
 

@@ -1,7 +1,7 @@
 """What a debug session needs of the soft PLC: in the terms of the debugger, not of the protocol.
 
 Contract: calls raise `Refused` with a sentence for the user when something is not possible, ConnectionError
-when the runtime is gone. Lines count from 1 and are those of files.
+when the runtime is gone, or its application (ApplicationReplaced). Lines count from 1 and are those of files.
 Reason: the session is tested on a debuggee in memory; `runtime_debuggee` is the one on a runtime.
 """
 
@@ -19,6 +19,10 @@ Command = Literal["continue", "pause", "step_into", "step_over", "step_out"]
 
 class Refused(ValueError):  # noqa: N818 - the event, not an error class of the field
     """It is not possible; the sentence says why."""
+
+
+class ApplicationReplaced(ConnectionError):  # noqa: N818 - the event, not an error class of the field
+    """The runtime runs another application than the one that is debugged."""
 
 
 @dataclass(frozen=True, slots=True)

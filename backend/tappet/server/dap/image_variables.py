@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol, TypeVar
 
-from tappet.codegen.symbol_map import Child, SymbolError, SymbolMap, VarRef
+from tappet.codegen.package import CodePackage
+from tappet.codegen.symbol_map import Child, SymbolError, VarRef
 from tappet.runtime.client import RuntimeRefused
 from tappet.runtime.operations.declaration import WireOperation
 from tappet.runtime.operations.flight import ReadFlight
@@ -29,9 +30,10 @@ class Call(Protocol):
 class ImageVariables:
     """The variables of the loaded application."""
 
-    def __init__(self, call: Call, symbols: SymbolMap) -> None:
+    def __init__(self, call: Call, package: CodePackage) -> None:
         self._call = call
-        self._symbols = symbols
+        self._symbols = package.symbols
+        self._code_id = package.code_id
 
     async def children(self, path: str, start: int, count: int, cycle: int | None) -> list[Variable]:
         """What lies below a path, "" for the programs and variable lists; as it was at the end of a past
@@ -66,7 +68,7 @@ class ImageVariables:
         except ValueError as error:
             raise Refused(str(error)) from error
         try:
-            await self._call(Write([(ref.offset, data, ref.bit)]))
+            await self._call(Write([(ref.offset, data, ref.bit)], self._code_id))
         except RuntimeRefused as error:
             raise Refused(str(error)) from error
         return await self.read(path, None)
@@ -78,7 +80,7 @@ class ImageVariables:
             places = [(ref.offset, self._symbols.encode(ref, value), ref.bit) for ref, value in refs]
         except ValueError as error:
             raise Refused(str(error)) from error
-        await self._call(Write(places))
+        await self._call(Write(places, self._code_id))
 
     def _reference(self, child: Child) -> VarRef | None:
         """Where a child lies; None for programs and lists."""
@@ -89,7 +91,9 @@ class ImageVariables:
         if not places:
             return []
         try:
-            return await self._call(Read(places) if cycle is None else ReadFlight(cycle, places))
+            return await self._call(
+                Read(places, self._code_id) if cycle is None else ReadFlight(cycle, places)
+            )
         except RuntimeRefused as error:
             raise Refused(str(error)) from error
 

@@ -16,6 +16,7 @@ from tappet.runtime.operations.flight import FreezeFlight, ListFlightCycles
 from tappet.runtime.operations.life_cycle import GetInfo, Start, Stop
 from tappet.runtime.operations.reports import GetException, ReadLog
 from tappet.server.dap.debuggee import (
+    ApplicationReplaced,
     Breakpoint,
     Command,
     Frame,
@@ -62,7 +63,7 @@ class RuntimeDebuggee:
         self._load_variant = load_variant
         self._texts = texts
         self._read_text = read_text
-        self._image = ImageVariables(caller.call, package.symbols)
+        self._image = ImageVariables(caller.call, package)
         self._lines: dict[str, list[int]] = {}
         self._data: list[int] = []
         self._last_log = 0
@@ -95,6 +96,8 @@ class RuntimeDebuggee:
     async def state(self) -> State:
         """As of now."""
         info = await self._call(GetInfo())
+        if info.code_id != self._package.code_id:
+            raise ApplicationReplaced
         found = await self._call(debugging.GetDebugState())
         halts = [Halt(each.task, each.reason, _id(each.breakpoint_id), each.message) for each in found.halted]
         report = await self._call(GetException()) if info.state == "exception" else None

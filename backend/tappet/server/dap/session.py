@@ -15,7 +15,7 @@ from typing import Any
 from tappet.server.dap import messages as m
 from tappet.server.dap.breakpoints import Breakpoints
 from tappet.server.dap.connection import Connection, Handler, Send
-from tappet.server.dap.debuggee import Command, Debuggee, Halt, Refused, State
+from tappet.server.dap.debuggee import ApplicationReplaced, Command, Debuggee, Halt, Refused, State
 from tappet.server.dap.inspection import Inspection
 from tappet.server.dap.view import View
 from tappet.translation.language import language_of
@@ -89,8 +89,8 @@ class DebugSession:
         """Carry one request out. Never raises for what it says."""
         try:
             done = await self._connection.serve(text, self._handlers)
-        except ConnectionError:
-            await self._gone()
+        except ConnectionError as error:
+            await self._gone(error)
             return
         if done is None:
             return
@@ -149,11 +149,16 @@ class DebugSession:
             await self.close()
         await self._connection.event("terminated", {})
 
-    async def _gone(self) -> None:
-        if self._view.debuggee is not None:
-            self._view.debuggee = None
-            await self._connection.output("The runtime is gone", "stderr")
-            await self._connection.event("terminated", {})
+    async def _gone(self, error: ConnectionError) -> None:
+        debuggee, self._view.debuggee = self._view.debuggee, None
+        if debuggee is None:
+            return
+        replaced = isinstance(error, ApplicationReplaced)
+        text = "The runtime runs another application now: attach again" if replaced else "The runtime is gone"
+        await self._connection.output(text, "stderr")
+        await self._connection.event("terminated", {})
+        with contextlib.suppress(Refused, ConnectionError):
+            await debuggee.close(terminate=False)
 
     # -- what happens ------------------------------------------------------------------------------------
 
@@ -166,8 +171,8 @@ class DebugSession:
                     category = "stderr" if severity in ("error", "exception") else "console"
                     await self._connection.output(line, category)
                 await self._tell(await self._view.debuggee.state())
-            except ConnectionError:
-                await self._gone()
+            except ConnectionError as error:
+                await self._gone(error)
                 return
             except Refused as error:
                 await self._connection.output(str(error), "stderr")

@@ -63,7 +63,7 @@ class RecordedApplication:
         """None is in force any more."""
         return []
 
-    def read(self, places: Sequence[tuple[int, int]]) -> list[bytes]:
+    def read(self, places: Sequence[tuple[int, int]], _code_id: str = "") -> list[bytes]:
         """Of the end of the recording."""
         return _parts(self.recording.base, places)
 

@@ -135,6 +135,14 @@ class RuntimeLink:
             raise self._no_application()
         return self.symbols
 
+    @property
+    def code_id(self) -> str:
+        """Of the application whose symbols are known; empty when there is none.
+
+        Orders by place carry it: what a place means may change at any time.
+        """
+        return (self.info.code_id if self.info is not None else None) or ""
+
     async def refresh(self) -> None:
         """Reads the state of the runtime now, and notifies the listeners of changes."""
         async with self._refreshing:

@@ -73,7 +73,7 @@ async def unforce(
     link: RuntimeLink, expressions: Sequence[str] | None, begin: Begin, *, restore: bool = False
 ) -> None:
     """Releases forced variables, all with None; with `restore` they get back what they held before."""
-    symbols = link.loaded_symbols()
+    symbols, code_id = link.loaded_symbols(), link.code_id
     if expressions is None:
         places = None
         released = dict(link.forced)
@@ -84,7 +84,7 @@ async def unforce(
     before = {v.expression: v.literal or "" for v in await forces(link)}
     await begin([Written(path, before.get(path, ""), "") for path in released.values()])
     async with link.client() as client:
-        await client.call(Unforce(places, restore))
+        await client.call(Unforce(places, restore, code_id))
     await link.refresh()
 
 
@@ -180,7 +180,7 @@ async def _set(
     link: RuntimeLink, values: Sequence[NewValue], begin: Begin, *, force: tuple[str, str] | None = None
 ) -> None:
     """Writes values, or forces them with the user and the source of the order."""
-    symbols = link.loaded_symbols()
+    symbols, code_id = link.loaded_symbols(), link.code_id
     orders: list[tuple[VarRef, bytes]] = []
     errors: list[InvalidField] = []
     for wanted in values:
@@ -204,7 +204,11 @@ async def _set(
         ]
     )
     async with link.client() as client:
-        await (client.call(Write(batch)) if force is None else client.call(Force(batch, *force)))
+        await (
+            client.call(Write(batch, code_id))
+            if force is None
+            else client.call(Force(batch, *force, code_id))
+        )
     if force is not None:
         await link.refresh()
 
