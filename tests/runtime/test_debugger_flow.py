@@ -85,6 +85,20 @@ def test_the_present_cycle_of_a_halted_task(plc: SoftPlc) -> None:
     assert lines[20][1] == {"i": str(value(plc, "PLC_PRG.i"))}
 
 
+def test_a_cycle_that_had_begun_before_is_no_complete_one(plc: SoftPlc) -> None:
+    """Flow control set in the midst of a cycle knows nothing of the statements before."""
+    add(plc, 25)
+    plc.start()
+    halted(plc)
+    plc.debugger.set_flow([URI])
+    flow = plc.debugger._flow
+    assert flow is not None
+    for complete in (False, True):
+        plc.debugger.control("continue")
+        cycle = halted(plc).halted[0].cycle
+        assert flow.table["doneCycle"] == (cycle - 1 if complete else 0)
+
+
 def test_it_ends(plc: SoftPlc) -> None:
     plc.debugger.set_flow([URI])
     plc.start()
