@@ -397,3 +397,25 @@ def test_properties_are_sampled_and_trigger() -> None:
         runtime.run(cycles=30)
         assert status(runtime).state == "done"
         assert column(runtime)[-1] == 25
+
+
+@pytest.mark.parametrize("dead", [1, 3, 7])
+def test_dead_time_is_the_horizontal_distance_of_two_curves(dead: int) -> None:
+    """trace EX-08: set and actual position in the task that moves the axis; distance over cycle time."""
+    text = f"""
+    PROGRAM PLC_PRG
+    VAR
+        fSetPosition, fActPosition : LREAL; n : INT; aSent : ARRAY [0..{dead}] OF LREAL;
+    END_VAR
+    n := n + 1;
+    fSetPosition := SEL(n > 20, 0.0, MIN(5.0, (n - 20) * 0.7));
+    aSent[n MOD {dead + 1}] := fSetPosition;
+    fActPosition := aSent[(n + 1) MOD {dead + 1}];
+    END_PROGRAM
+    """
+    with LocalRuntime(build(text)) as runtime:
+        traced(runtime, "PLC_PRG.fSetPosition", "PLC_PRG.fActPosition", buffer=60)
+        runtime.run(cycles=60)
+        found = samples(runtime)
+        first, behind = (found["time"][np.argmax(found[name] >= 2.0)] for name in ("0", "1"))
+        assert (behind - first) / status(runtime).interval_ns == dead
