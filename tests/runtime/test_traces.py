@@ -419,3 +419,20 @@ def test_dead_time_is_the_horizontal_distance_of_two_curves(dead: int) -> None:
         found = samples(runtime)
         first, behind = (found["time"][np.argmax(found[name] >= 2.0)] for name in ("0", "1"))
         assert (behind - first) / status(runtime).interval_ns == dead
+
+
+@pytest.mark.parametrize(("edge", "first"), [("positive", 301), ("negative", 601)])
+def test_twenty_variables_with_500_values_around_an_edge_of_a_bool(edge: str, first: int) -> None:
+    """LST-80: the least that a sampling trace must hold."""
+    names = ", ".join(f"v{i}" for i in range(20))
+    filled = " ".join(f"v{i} := n * 100 + {i};" for i in range(20))
+    text = f"PROGRAM PLC_PRG\nVAR n : DINT; x : BOOL; {names} : DINT; END_VAR\nn := n + 1; {filled}\n"
+    with LocalRuntime(build(f"{text}x := n > 300 AND n <= 600;\nEND_PROGRAM")) as runtime:
+        variables = [f"PLC_PRG.v{i}" for i in range(20)]
+        trigger = {"variable": "PLC_PRG.x", "edge": edge, "position": 50}
+        traced(runtime, *variables, buffer=500, trigger=trigger)
+        runtime.run(cycles=1200)
+        assert status(runtime).state == "done"
+        wanted = range(first - 249, first + 251)
+        for i in range(20):
+            assert column(runtime, i) == [n * 100 + i for n in wanted]
