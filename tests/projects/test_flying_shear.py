@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
-from tests.projects.example_machines import machine, number, run
+from tests.projects.example_machines import PROJECTS, machine, number, run
+
+from tappet.project.folder.disk import load
+from tappet.project.trace import TraceData
+from tappet.runtime.trace_compiler import compile_trace, trace_tasks
+from tappet.traces.samples import frame_dtype
 
 
 def test_pieces_have_their_length_to_the_micrometre() -> None:
@@ -49,3 +55,28 @@ def test_a_web_that_stops_loses_no_piece(seconds: float) -> None:
         assert number(shear, "GVL_Shear.udiPieces") == pytest.approx(pieces + 10.0, abs=1)
         assert number(shear, "GVL_Shear.lrWorst") < 1e-3
         assert shear.read("Shear.bError") is False
+
+
+def test_the_trace_of_the_project_shows_a_cut() -> None:
+    """Shear and web have one velocity from the moment at which the blade goes down until it is up again."""
+    project = load(PROJECTS / "flying_shear")
+    (trace,) = project.find_kind("trace")
+    settings = trace.data_as(TraceData)
+    with machine("flying_shear", 5.0) as shear:
+        package = shear.package
+        tasks = trace_tasks(package.tasks)
+        spec = compile_trace(trace.name, settings, package.symbols, tasks, package.code_id, "")
+        shear.plc.download_trace(spec, True)
+        run(shear, 10.0)
+        (record,) = shear.plc.traces()[0].records
+        assert record.state == "done"
+        frames = shear.plc.take_trace(trace.name, 0, record.first, record.samples)
+        found = np.frombuffer(frames.data, frame_dtype(record.sources, record.frame_size))
+        assert record.trigger_sample is not None
+        at = record.trigger_sample - record.first
+        assert 0 < at <= settings.records[0].buffer * 0.4
+        assert not found["3"][at - 1]
+        assert found["3"][at]
+        cutting = np.flatnonzero(found["3"])
+        assert found["1"][cutting] == pytest.approx(found["0"][cutting], abs=1e-6)
+        assert found["1"][0] < found["0"][0] - 10.0, "before, the shear stands or comes back"
