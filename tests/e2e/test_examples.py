@@ -41,6 +41,19 @@ def test_an_example_begins_from_the_start_page_and_runs(page: Page) -> None:
     expect(row).to_contain_text("udiPieces")
 
 
+def test_the_trace_of_an_example_is_downloaded_and_shows_a_cut(browser: Browser, server: Server) -> None:
+    folder = Path(os.environ.get("TAPPET_PICTURES", server.data))
+    folder.mkdir(parents=True, exist_ok=True)
+    with new_profile(browser, "en", "dark") as profile, start_page(profile, server) as page:
+        _begin(page, "Flying shear")
+        log_in(page)
+        open_object(page, "CutTrace")
+        page.get_by_role("button", name="Download Trace").last.click()
+        expect(page.get_by_role("status", name="State")).to_contain_text("done", timeout=60_000)
+        page.wait_for_timeout(1_000)
+        page.screenshot(path=folder / "example-trace.png")
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("name", sorted(MACHINES))
