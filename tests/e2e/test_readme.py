@@ -15,6 +15,7 @@ from .workbench import (
     open_object,
     open_panel,
     open_project,
+    status_bar,
     watch,
     watch_value,
 )
@@ -80,6 +81,18 @@ def test_the_five_minutes_of_the_readme(page: Page) -> None:
     expect(editor).to_contain_text("PT\xa0:=\xa0T#3S")
     page.keyboard.press("Escape")
     change_online(page)
+
+    editor.locator(".view-line").filter(has_text="fbHorn(").first.click()
+    page.keyboard.press("F9")
+    expect(status_bar(page)).to_contain_text("halted: MainTask", timeout=60_000)
+    levels = page.get_by_role("grid", name="Call stack").get_by_role("row")
+    expect(levels.filter(has_text="PLC_PRG").first).to_be_visible()
+    page.keyboard.press("F10")
+    expect(page.get_by_text("Halted after a step")).to_be_visible()
+    editor.locator(".view-line").filter(has_text="fbHorn(").first.click()
+    page.keyboard.press("F9")
+    page.keyboard.press("F5")
+    expect(status_bar(page)).to_contain_text("running")
 
     editor.locator(".view-line").first.click()
     page.keyboard.press("End")
