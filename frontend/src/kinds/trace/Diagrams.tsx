@@ -1,7 +1,9 @@
 import { useCallback, useEffect, useMemo, useRef, useState, type KeyboardEvent } from 'react';
+import { createStore, useStore, type StoreApi } from 'zustand';
 import type { Range } from '@/editors/plot/scales';
 import { useSize } from '@/editors/plot/useSize';
 import { useText } from '@/i18n';
+import { usePreferences } from '@/session/preferences';
 import { formatNumber } from './numbers';
 import { nearestSample, valueAt } from './analysis/statistics';
 import { channelName, recordedSpan, type TraceData } from './configuration';
@@ -9,7 +11,7 @@ import { valueRange } from './data/curves';
 import type { RunData } from './data/runData';
 import { Diagram, type DiagramActs } from './diagram/Diagram';
 import { diagramsOf, rowsOf, type DiagramModel } from './diagram/diagrams';
-import { automaticColor, canvasColor } from './diagram/ink';
+import { automaticColor, canvasColors } from './diagram/ink';
 import type { Layer, Picture } from './diagram/plot';
 import { timeRange, valueScale } from './diagram/scaling';
 import { around, compressed, replaced, scrolled, shown, stretched, zoomed, type View } from './diagram/viewport';
@@ -25,6 +27,8 @@ export interface OverlayRun {
   run: RunData;
   title: string;
   shift: number;
+  /** Differs when other samples are there. */
+  drawn: number;
 }
 
 interface DiagramsProps {
@@ -63,15 +67,22 @@ export function Diagrams({ data, run, overlays, live, view, onView }: DiagramsPr
   const t = useText();
   const frame = useRef<HTMLDivElement>(null);
   const { width } = useSize(frame);
-  const [hover, setHover] = useState<{ key: string; ns: number } | null>(null);
+  const [pointer] = useState(() => createStore<Pointer>(() => ({ ns: null })));
   const diagrams = useMemo(() => diagramsOf(data, view.multi, view.computed), [data, view.multi, view.computed]);
-  const rows = rowsOf(diagrams, view.multi || data.stacked || view.computed.length > 0);
-  const x = seenTime(data, run, live, view.views.now.x);
-  const pictures = new Map(
-    rows.flatMap((row) =>
-      row.map((one) => [one.key, pictureOf(one, data, run, overlays, view, x, width / row.length)]),
-    ),
-  );
+  const oneColumn = view.multi || data.stacked || view.computed.length > 0;
+  const rows = useMemo(() => rowsOf(diagrams, oneColumn), [diagrams, oneColumn]);
+  const { min, max } = seenTime(data, run, live, view.views.now.x);
+  const x = useMemo(() => ({ min, max }), [min, max]);
+  const theme = usePreferences((state) => state.shown);
+  const scales = view.views.now.y;
+  const drawn = run?.snapshot() ?? 0;
+  // Made anew only when what is in them may be another: a pointer that moves draws nothing.
+  const pictures = useMemo(() => {
+    const sources = { data, run, overlays, drawn, colors: canvasColors(), theme };
+    return new Map(
+      rows.flatMap((row) => row.map((one) => [one.key, pictureOf(one, sources, scales, x, width / row.length)])),
+    );
+  }, [rows, data, run, overlays, drawn, theme, scales, x, width]);
   const latest = useRef({ x, pictures, start: view.views.now });
   useEffect(() => {
     latest.current.x = x;
@@ -120,7 +131,7 @@ export function Diagrams({ data, run, overlays, live, view, onView }: DiagramsPr
     reset: () => change(() => ({ x: null, y: {} })),
     cursor: (number, ns) =>
       onView((before) => ({ ...before, cursors: before.cursors.map((one, at) => (at === number ? ns : one)) })),
-    hover: (ns) => setHover(ns === null ? null : { key: diagram.key, ns }),
+    hover: (ns) => pointer.setState({ ns }),
     select: () => onView((before) => (before.diagram === diagram.key ? before : { ...before, diagram: diagram.key })),
   });
 
@@ -190,7 +201,8 @@ export function Diagrams({ data, run, overlays, live, view, onView }: DiagramsPr
                     diagram={diagram}
                     data={data}
                     picture={pictures.get(diagram.key)!}
-                    at={hover?.ns ?? view.cursors[0] ?? null}
+                    pointer={pointer}
+                    cursor={view.cursors[0] ?? null}
                   />
                 }
               />
@@ -199,26 +211,52 @@ export function Diagrams({ data, run, overlays, live, view, onView }: DiagramsPr
         ))}
       </div>
       <output className={`${styles.time} code`} aria-label={t('trace.time')}>
-        {hover
-          ? t('trace.timeAt', { time: momentText(hover.ns, grain) })
-          : view.cursors.map((ns) => t('trace.timeAt', { time: momentText(ns, grain) })).join(' – ')}
+        <PointerTime pointer={pointer} cursors={view.cursors} grain={grain} />
         {apart !== null && ` (Δ ${momentText(Math.abs(apart), grain)})`}
       </output>
     </div>
   );
 }
 
+/** Where the pointer is; by a store of its own, as it moves with every picture. */
+interface Pointer {
+  ns: number | null;
+}
+
+function PointerTime({
+  pointer,
+  cursors,
+  grain,
+}: {
+  pointer: StoreApi<Pointer>;
+  cursors: readonly number[];
+  grain: number;
+}) {
+  const t = useText();
+  const ns = useStore(pointer, (state) => state.ns);
+  const moments = ns === null ? cursors : [ns];
+  return moments.map((one) => t('trace.timeAt', { time: momentText(one, grain) })).join(' – ');
+}
+
 type Texts = ReturnType<typeof useText>;
 const titleOf = (diagram: DiagramModel, t: Texts): string =>
   diagram.computed ? t(`trace.${diagram.computed.operation}Of`, { name: diagram.title }) : diagram.title;
 
+interface Sources {
+  data: TraceData;
+  run: RunData | null;
+  overlays: readonly OverlayRun[];
+  /** Which samples are there, and which colours. */
+  drawn: number;
+  theme: 'light' | 'dark';
+  colors: (color: string) => string;
+}
+
 /** What is drawn in a diagram: curves by their colours, and what is computed or another run dashed. */
 function pictureOf(
   diagram: DiagramModel,
-  data: TraceData,
-  run: RunData | null,
-  overlays: readonly OverlayRun[],
-  view: TraceView,
+  { data, run, overlays, colors }: Sources,
+  scales: View['y'],
   x: Range,
   width: number,
 ): Picture {
@@ -233,7 +271,7 @@ function pictureOf(
       const channel = record.channels[k]!;
       const found = from.curve(own, channel, moved, pixels, diagram.computed?.operation);
       if (found === null) continue;
-      const color = canvasColor(channel.color || automaticColor(k));
+      const color = colors(channel.color || automaticColor(k));
       layers.push({
         channel: k,
         curve: found.curve,
@@ -252,7 +290,7 @@ function pictureOf(
   };
   for (const overlay of overlays) add(overlay.run, overlay.shift, true);
   if (run) add(run, 0, false);
-  const zoomedTo = view.views.now.y[diagram.key];
+  const zoomedTo = scales[diagram.key];
   const y = new Map(
     [...diagram.y].map(([number, axis], place) => {
       const ranges = layers
@@ -276,14 +314,17 @@ function Legend({
   diagram,
   data,
   picture,
-  at,
+  pointer,
+  cursor,
 }: {
   diagram: DiagramModel;
   data: TraceData;
   picture: Picture;
-  at: number | null;
+  pointer: StoreApi<Pointer>;
+  cursor: number | null;
 }) {
   const t = useText();
+  const at = useStore(pointer, (state) => state.ns) ?? cursor;
   const record = data.records[diagram.record]!;
   const own = picture.layers.filter(({ look }) => !look.dashed);
   return (

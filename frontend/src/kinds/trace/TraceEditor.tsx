@@ -1,4 +1,4 @@
-import { Plus, Settings2 } from 'lucide-react';
+import { Plus } from 'lucide-react';
 import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
 import { ofKind } from '@/api/objects';
 import { useObject } from '@/api/queries';
@@ -13,7 +13,7 @@ import { explain } from '@/ui/notices';
 import { atLeast, mayChangeText } from '@/workbench/rights';
 import { useCommandContext } from '@/workbench/useCommandContext';
 import { reasonText } from '@/workbench/run';
-import { changeChannels, faultsOf, recordedPart, withVariables, type Node, type TraceData } from './configuration';
+import { faultsOf, recordedPart, type Node, type TraceData } from './configuration';
 import { useRecording, useRunning, useStoredRun, useTraceState } from './data/useRuns';
 import type { DownloadProblem, Source } from './data/source';
 import { Diagrams, seenTime } from './Diagrams';
@@ -22,7 +22,7 @@ import { AnalysisPanel } from './panels/AnalysisPanel';
 import { useOverlays } from './panels/useOverlays';
 import { Problems, StateBar, StoredBar } from './StateBar';
 import { menuEntriesOf, TraceIcon, TraceToolbar } from './TraceToolbar';
-import { TraceTree } from './TraceTree';
+import { TraceSide } from './TraceSide';
 import { FIRST_VIEW, type TraceView } from './traceView';
 import { openConfiguration, useTraceActs, type Possible, type TraceScene } from './useTraceActs';
 import styles from './Trace.module.css';
@@ -72,6 +72,7 @@ export default function TraceEditor({ panelId, projectId, objectId }: EditorProp
     after: view.views.future.length > 0 || 'trace.reason.after',
     cursors: view.cursors.length === 2 || 'trace.reason.cursors',
   };
+  const mayShow = possible.display === true;
   const acts = useTraceActs(scene, possible);
   const draft = useDraft(panelId, projectId, objectId, ofKind('trace'), canStore, acts, mayChangeText);
   const data = showsStored ? (shownData ?? undefined) : draft.data;
@@ -99,6 +100,13 @@ export default function TraceEditor({ panelId, projectId, objectId }: EditorProp
     onProblems: setProblems,
     onShown: (id) => setView((before) => ({ ...before, shown: id, views: FIRST_VIEW.views, cursors: [] })),
   });
+  const { tool, multi, cursors } = view;
+  const tools = useMemo(() => ({ tool, multi, cursors }), [tool, multi, cursors]);
+  const isRecording = Boolean(state?.recording);
+  const menu = useCallback(() => menuEntriesOf(acts, tools, isRecording, t), [acts, tools, isRecording, t]);
+  const open = useCallback((node: Node) => {
+    if (scene.current) openConfiguration(scene.current, [node]);
+  }, []);
   useEffect(() => {
     scene.current =
       data && object
@@ -107,6 +115,7 @@ export default function TraceEditor({ panelId, projectId, objectId }: EditorProp
             object,
             data,
             readOnly: showsStored ? null : readOnly,
+            mayShow,
             change,
             view,
             setView,
@@ -117,21 +126,18 @@ export default function TraceEditor({ panelId, projectId, objectId }: EditorProp
             place: () => place.current?.querySelector<HTMLElement>('[role="group"]') ?? null,
           }
         : null;
-  }, [data, object, projectId, showsStored, readOnly, change, view, run, live, session, state, online]);
+  }, [data, object, projectId, showsStored, readOnly, mayShow, change, view, run, live, session, state, online]);
   if (draft.error && !draft.object) return <Failed error={draft.error} />;
   if (noRecording) return <Failed error={noRecording} retry={() => setView(FIRST_VIEW)} />;
   if (!data || !draft.object) return <Loading />;
 
-  const setNodes = (nodes: readonly Node[]) => setView((before) => ({ ...before, nodes }));
-  const open = (node: Node) => scene.current && openConfiguration(scene.current, [node]);
   const may = (id: keyof Possible) => possible[id];
   const first = [may('online'), may('operator'), may('configured')].find((one) => one !== true);
   const changed = running !== null && recordedPart(data) !== recordedPart(running.shape.data);
-  const menu = () => menuEntriesOf(acts, view, Boolean(state?.recording), t);
   const failure = run?.failure;
   return (
     <div className={styles.page}>
-      <TraceToolbar acts={acts} view={view} recording={Boolean(state?.recording)} />
+      <TraceToolbar acts={acts} view={tools} recording={isRecording} />
       {showsStored
         ? recording && (
             <StoredBar
@@ -193,50 +199,19 @@ export default function TraceEditor({ panelId, projectId, objectId }: EditorProp
             onConfiguration={showsStored && readOnly === null ? (taken) => store(taken) : null}
           />
         </div>
-        <aside className={styles.side}>
-          <div className={styles.sideHead}>
-            <span>{t('trace.tree')}</span>
-          </div>
-          <TraceTree
-            data={data}
-            nodes={view.nodes}
-            onNodes={setNodes}
-            menu={menu}
-            onOpen={open}
-            label={t('trace.tree')}
-            faulty={NO_FAULTS}
-            states={state && !showsStored ? state.records.map(({ state: now }) => t(`trace.state.${now}`)) : undefined}
-            active={state?.running}
-            onVisible={(nodes) =>
-              possible.display === true
-                ? change(changeChannels(data, nodes, (channel) => ({ ...channel, visible: !channel.visible })))
-                : undefined
-            }
-            onDelete={() => possible.editing === true && void acts['trace.delete']?.run()}
-            onDrop={
-              possible.editing === true
-                ? (record, variables) => change(withVariables(data, record, variables))
-                : undefined
-            }
-          />
-          <div className={styles.links}>
-            <Button icon={Settings2} variant="quiet" onClick={() => void acts['trace.configuration']?.run()}>
-              {t('trace.configuration')}
-            </Button>
-            <Button
-              icon={Plus}
-              variant="quiet"
-              disabledReason={possible.editing === true ? null : reasonText(possible.editing)}
-              onClick={() => void acts['trace.addVariable']?.run()}
-            >
-              {t('trace.variable')}
-            </Button>
-          </div>
-        </aside>
+        <TraceSide
+          data={data}
+          nodes={view.nodes}
+          state={showsStored ? null : (state ?? null)}
+          active={state?.running === true}
+          acts={acts}
+          menu={menu}
+          scene={scene}
+          open={open}
+        />
       </div>
     </div>
   );
 }
 
 const EMPTY: TraceData = { refresh_rate: 500, points: 10_000, stacked: false, records: [] };
-const NO_FAULTS: ReadonlySet<string> = new Set();

@@ -1,5 +1,5 @@
 import { ChartLine, SquareMenu } from 'lucide-react';
-import { Fragment } from 'react';
+import { Fragment, memo } from 'react';
 import { useText } from '@/i18n';
 import { Button, IconButton } from '@/ui/Button';
 import { DropdownMenu, type MenuEntry } from '@/ui/Menu';
@@ -9,14 +9,17 @@ import { ACT_GROUPS, type TraceActId } from './acts';
 import type { TraceView } from './traceView';
 import styles from './Trace.module.css';
 
+/** The part of the view that buttons show. */
+export type ToolView = Pick<TraceView, 'tool' | 'multi' | 'cursors'>;
+
 interface TraceToolbarProps {
   acts: Handlers;
-  view: TraceView;
+  view: ToolView;
   recording: boolean;
 }
 
 /** Acts whose button stays pressed. */
-function pressed(id: TraceActId, view: TraceView, recording: boolean): boolean | undefined {
+function pressed(id: TraceActId, view: ToolView, recording: boolean): boolean | undefined {
   switch (id) {
     case 'trace.mouseScroll':
       return view.tool === 'scroll';
@@ -40,7 +43,7 @@ const KEYS: Partial<Record<TraceActId, string>> = {
   'trace.stretch': '+',
 };
 
-export function TraceToolbar({ acts, view, recording }: TraceToolbarProps) {
+export const TraceToolbar = memo(function TraceToolbar({ acts, view, recording }: TraceToolbarProps) {
   const t = useText();
   return (
     <div className={styles.toolbar} role="toolbar" aria-label={t('trace.tools')}>
@@ -76,12 +79,12 @@ export function TraceToolbar({ acts, view, recording }: TraceToolbarProps) {
       />
     </div>
   );
-}
+});
 
 /** All acts as a menu, in their groups (TRC-05). */
 export function menuEntriesOf(
   acts: Handlers,
-  view: TraceView,
+  view: ToolView,
   recording: boolean,
   t: ReturnType<typeof useText>,
 ): MenuEntry[] {

@@ -29,6 +29,8 @@ export interface TraceScene {
   data: TraceData;
   /** Why the configuration cannot be changed. */
   readOnly: string | null;
+  /** Whether curves may be shown and hidden. */
+  mayShow: boolean;
   change: (data: TraceData) => void;
   view: TraceView;
   setView: (change: (view: TraceView) => TraceView) => void;

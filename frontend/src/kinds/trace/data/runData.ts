@@ -32,7 +32,17 @@ export interface RunShape {
   records: readonly { interval_ns: number; channels: readonly { index: number; name: string }[] }[];
 }
 
+/** What was joined last: all channels of a record are drawn from it. */
+interface Joined {
+  view: Range;
+  pixels: number;
+  revision: number;
+  extent: Range | null;
+  curves: Curves;
+}
+
 export class RunData {
+  private readonly joined = new Map<TileStore, Joined>();
   private readonly stores = new Map<string, TileStore>();
   private readonly known: (RecordData | null)[];
   private readonly listeners = new Set<() => void>();
@@ -134,9 +144,8 @@ export class RunData {
     if (formula === '' ? index === null : operation !== undefined) return null;
     const store = this.store(record, index, formula, operation);
     if (store === null) return null;
-    const pieces = this.clipped(store.pieces(view, pixels), record);
+    const curves = this.curvesOf(store, record, view, pixels);
     if (store.failure !== null) this.failed(store.failure);
-    const curves = joined(pieces);
     const alone = formula !== '' || operation !== undefined;
     const curve = alone ? curves.channels.values().next().value : curves.channels.get(index!);
     return curve === undefined ? null : { curves, curve };
@@ -180,6 +189,22 @@ export class RunData {
     this.retrying = null;
     for (const store of this.stores.values()) store.close();
     this.stores.clear();
+    this.joined.clear();
+  }
+
+  private curvesOf(store: TileStore, record: number, view: Range, pixels: number): Curves {
+    const extent = this.extent(record);
+    const last = this.joined.get(store);
+    const same =
+      last?.pixels === pixels &&
+      last.revision === store.revision &&
+      last.extent === extent &&
+      last.view.min === view.min &&
+      last.view.max === view.max;
+    if (same) return last.curves;
+    const curves = joined(this.clipped(store.pieces(view, pixels), record));
+    this.joined.set(store, { view, pixels, revision: store.revision, extent, curves });
+    return curves;
   }
 
   /** Samples that the ring has forgotten are not drawn (trace EX-05). */

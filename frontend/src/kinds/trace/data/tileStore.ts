@@ -47,6 +47,8 @@ export class TileStore {
   private clock = 0;
   private bytes = 0;
   private version = 0;
+  /** Changes whenever other pieces may be given, or others be asked for. */
+  revision = 0;
   /** Why nothing is asked for any more, until `retry`. */
   failure: unknown = null;
 
@@ -60,11 +62,13 @@ export class TileStore {
   /** Samples have come: tiles that were not complete are fetched again when they are next seen. */
   grown(): void {
     this.version += 1;
+    this.revision += 1;
   }
 
   /** Asks again after a failure. */
   retry(): void {
     this.failure = null;
+    this.revision += 1;
   }
 
   /** What can be drawn of a view now, in order of time; asks for what fits better. */
@@ -169,6 +173,7 @@ export class TileStore {
   }
 
   private keep(key: string, range: Range, window: TraceWindow, version: number): void {
+    this.revision += 1;
     this.bytes -= this.tiles.get(key)?.bytes ?? 0;
     const bytes = window.time.length * 8 * (2 + 2 * window.channels.length);
     const open = window.extent === null || window.extent.max < range.max + 2 * this.interval;

@@ -25,3 +25,13 @@ export function canvasColor(color: string): string {
   const token = /^var\((--[\w-]+)\)$/.exec(color);
   return token ? getComputedStyle(document.documentElement).getPropertyValue(token[1]!).trim() : color;
 }
+
+/** The same, each colour looked up once: that makes the browser compute its styles. */
+export function canvasColors(): (color: string) => string {
+  const known = new Map<string, string>();
+  return (color) => {
+    const found = known.get(color) ?? canvasColor(color);
+    known.set(color, found);
+    return found;
+  };
+}

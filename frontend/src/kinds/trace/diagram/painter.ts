@@ -1,6 +1,7 @@
 /** Draws curves in their graph types (TRC-42) with the colours of their limits (TRC-43 to TRC-46). */
 import type { GraphType, Warning } from '../configuration';
 import type { Curve, Curves } from '../data/curves';
+import { columnsOf, fillColumns, isDense } from './columns';
 
 /** Where a curve is drawn, in pixels of the canvas. */
 export interface Plane {
@@ -122,6 +123,16 @@ export function bands(look: CurveLook, plane: Plane): { from: number; to: number
   return [...found, { from, to, color: look.color }].filter((band) => band.to > band.from);
 }
 
+/**
+ * Of more points a line is a pixel thick, which a browser without a graphics card draws forty times as fast as a
+ * thicker one; where there are more device pixels there is a graphics card.
+ */
+const MANY = 150;
+const widthOf = (points: number, width: number) => (points > MANY && width < 2 ? Math.min(1, width) : width);
+
+/** Of a dashed curve where its dashes could not be told apart. */
+const FAINT = 0.55;
+
 /** Draws one curve, within the plane. */
 export function paintCurve(
   context: CanvasRenderingContext2D,
@@ -130,6 +141,18 @@ export function paintCurve(
   look: CurveLook,
   plane: Plane,
 ): void {
+  const joined = look.graph === 'line' || look.graph === 'step' || look.graph === 'saw_tooth';
+  if (joined && isDense(curves, plane)) {
+    const columns = columnsOf(curves, curve, plane, look.graph === 'saw_tooth' ? plane.toY(0) : null);
+    context.save();
+    if (look.dashed) context.globalAlpha = FAINT;
+    for (const band of bands(look, plane)) {
+      context.fillStyle = band.color;
+      fillColumns(context, columns, plane.left, band, Math.max(1, Math.round(look.width)));
+    }
+    context.restore();
+    return;
+  }
   const path = new Path2D();
   outline(path, curves, curve, look.graph, plane, MARK * look.width);
   for (const { from, to, color } of bands(look, plane)) {
@@ -138,7 +161,7 @@ export function paintCurve(
     context.rect(plane.left, from, plane.width, to - from);
     context.clip();
     context.strokeStyle = color;
-    context.lineWidth = look.graph === 'points' ? MARK * look.width : look.width;
+    context.lineWidth = look.graph === 'points' ? MARK * look.width : widthOf(curves.time.length, look.width);
     context.lineJoin = 'round';
     if (look.dashed) context.setLineDash([5 * look.width, 3 * look.width]);
     context.stroke(path);

@@ -10,6 +10,7 @@ import { ComparePanel } from './ComparePanel';
 import { MeasurePanel, StatisticsPanel } from './MeasurePanel';
 import { RecordingsPanel } from './RecordingsPanel';
 import { SpectrumPanel } from './SpectrumPanel';
+import { useSettled } from './useSettled';
 import { XyPanel } from './XyPanel';
 
 interface AnalysisPanelProps {
@@ -28,6 +29,7 @@ interface AnalysisPanelProps {
 export function AnalysisPanel(props: AnalysisPanelProps) {
   const { projectId, trace, data, run, live, overlays, view, onView, onConfiguration } = props;
   const t = useText();
+  const seen = useSettled(seenTime(data, run, live, view.views.now.x));
   const open = (panel: PanelId | null) => onView((before) => ({ ...before, panel }));
   const content = () => {
     if (view.panel === 'recordings')
@@ -42,7 +44,6 @@ export function AnalysisPanel(props: AnalysisPanelProps) {
         />
       );
     if (run === null) return <p className={styles.note}>{t('trace.reason.shown')}</p>;
-    const seen = seenTime(data, run, live, view.views.now.x);
     const [one, other] = view.cursors;
     const between =
       one === undefined || other === undefined ? null : { min: Math.min(one, other), max: Math.max(one, other) };

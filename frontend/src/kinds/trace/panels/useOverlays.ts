@@ -7,7 +7,7 @@ import type { Overlay } from '../traceView';
 
 /** The recordings that are drawn over what is shown. */
 export function useOverlays(overlays: readonly Overlay[]): OverlayRun[] {
-  const [, draw] = useReducer((count: number) => count + 1, 0);
+  const [drawn, draw] = useReducer((count: number) => count + 1, 0);
   const answers = useQueries({ queries: overlays.map(({ id }) => recordingQuery(id)) });
   const loaded = answers.flatMap(({ data }) => (data ? [data] : []));
   const key = loaded.map(({ id }) => id).join(' ');
@@ -31,8 +31,12 @@ export function useOverlays(overlays: readonly Overlay[]): OverlayRun[] {
       runs.forEach(({ run }) => run.close());
     };
   }, [runs]);
-  return overlays.flatMap(({ id, shift }) => {
-    const found = runs.find((one) => one.id === id);
-    return found ? [{ run: found.run, shift, title: found.title }] : [];
-  });
+  return useMemo(
+    () =>
+      overlays.flatMap(({ id, shift }) => {
+        const found = runs.find((one) => one.id === id);
+        return found ? [{ run: found.run, shift, title: found.title, drawn }] : [];
+      }),
+    [overlays, runs, drawn],
+  );
 }
