@@ -57,7 +57,7 @@ CODE = {
 MOTION = {"axis_measurement", "loops"}
 """What is asked of a controller to measure an axis; a process of its own computes with the answer."""
 UNWANTED = {
-    "llvmlite", "lsprotocol", "httpx", "viser", "rich", "sqlalchemy.dialects.postgresql",
+    "llvmlite", "lsprotocol", "httpx", "viser", "numpy", "pyarrow", "rich", "sqlalchemy.dialects.postgresql",
     "tappet.libraries.catalog", "tappet.project.exchange.importing", "tappet.project.exchange.plcopen_write",
     "tappet.runtime.plc", "tappet.runtime.executive.loader",
     "tappet.runtime.unit_tests.runner", "tappet.server.lsp.session", "tappet.server.analysis.worker",

@@ -18,8 +18,8 @@ from server_clients import CHEAP, RUNTIME, connected, real_app, serving, until
 
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 from tappet.traces.formats import write_trace
-from tappet.traces.recording import RecordInfo
-from tappet.traces.samples import Batch, BatchSamples, ChannelInfo
+from tappet.traces.recording import ChannelInfo, RecordInfo
+from tappet.traces.samples import Batch, BatchSamples
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "traces"))
 from sampled_batches import read_window
@@ -251,6 +251,38 @@ def test_long_term_recording_keeps_every_sample(client: TestClient) -> None:
     assert small["high"][0][-1] == raw["values"][0][-1]
     timed = client.post(f"{TRACES}/Trace/recording", json={"seconds": 1}).json()
     until(lambda: client.get(f"{RECORDINGS}/{timed['id']}").json()["state"] == "complete")
+
+
+def test_a_recording_with_a_limit_keeps_the_newest_samples(client: TestClient) -> None:
+    _download(client)
+    order = {"title": "Ring", "keep_mib": 1, "keep_seconds": 3600}
+    begun = client.post(f"{TRACES}/Trace/recording", json=order).json()
+    assert (begun["keep_bytes"], begun["keep_seconds"], begun["dropped"]) == (1 << 20, 3600, 0)
+    refused = client.post(f"{TRACES}/Trace/recording", json={"keep_seconds": 0})
+    assert refused.status_code == 422
+    client.delete(f"{TRACES}/Trace/recording")
+    url = f"{RECORDINGS}/{begun['id']}"
+    assert client.get(url).json()["state"] == "complete"
+    assert client.delete(url).status_code == 204
+
+
+def test_lists_of_recordings_are_filtered(client: TestClient) -> None:
+    _download(client)
+    _until(lambda: _state(client)["records"][0]["samples"] > 20)
+    stored = client.post(f"{TRACES}/Trace/snapshot", json={"title": "Filtered"}).json()
+
+    def listed(**query: str) -> bool:
+        found = client.get(RECORDINGS, params=query).json()["recordings"]
+        return stored["id"] in [one["id"] for one in found]
+
+    assert listed()
+    assert listed(trace="trace", runtime_id=LOCAL_RUNTIME)
+    assert not listed(trace="Other")
+    assert not listed(runtime_id="other")
+    assert listed(**{"from": "2020-01-01T00:00:00Z"})
+    assert not listed(to="2020-01-01T00:00:00Z")
+    assert client.get(RECORDINGS, params={"from": "yesterday"}).status_code == 422
+    assert client.delete(f"{RECORDINGS}/{stored['id']}").status_code == 204
 
 
 def test_a_recording_ends_with_its_trace(client: TestClient) -> None:

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from tappet.traces.samples import Batch, ChannelInfo
+from tappet.traces.recording import ChannelInfo
+from tappet.traces.samples import Batch
 
 CHANNELS = [
     ChannelInfo(0, "P.r", "LREAL", "f8"),

@@ -16,7 +16,7 @@ from tappet.runtime.local import LocalRuntime
 from tappet.runtime.trace_compiler import compile_trace, trace_tasks
 from tappet.traces.chunks import StoredSamples
 from tappet.traces.reader import RecordReader
-from tappet.traces.samples import channels_of
+from tappet.traces.recording import channels_of
 
 MS = 1_000_000
 TEXT = """

@@ -7,8 +7,10 @@ import pytest
 from sampled_batches import CHANNELS, batch
 from scipy.signal import get_window
 
-from tappet.traces.analysis import Derived, WindowFunction, spectrum, statistics, window_function
-from tappet.traces.samples import Batch, BatchSamples, ChannelInfo
+from tappet.traces.analysis import Derived, spectrum, statistics, window_function
+from tappet.traces.questions import WindowFunction
+from tappet.traces.recording import ChannelInfo
+from tappet.traces.samples import Batch, BatchSamples
 
 REAL = [ChannelInfo(0, "v", "LREAL", "f8")]
 

@@ -134,3 +134,47 @@ def test_joined_batches() -> None:
     again = joined([whole.part(0, 30), whole.part(30, 30), whole.part(30, 100)])
     assert again.cycle.tolist() == whole.cycle.tolist()
     assert np.array_equal(again.values[0], whole.values[0], equal_nan=True)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.data())
+def test_dropped_chunks_are_gone_and_the_others_as_they_were(data: st.DataObject) -> None:
+    """Against a plain slice; also after the recording was opened again, and with samples that come later."""
+    count = data.draw(st.integers(1, 6 * CHUNK))
+    whole = batch(count, data.draw(st.integers(0, 99)))
+    cut = data.draw(st.integers(0, count))
+    with tempfile.TemporaryDirectory() as folder:
+        stored = StoredSamples(Path(folder), 0, CHANNELS)
+        stored.append(whole.part(0, cut))
+        chunks, dropped = cut // CHUNK, 0
+        for wanted in data.draw(st.lists(st.integers(0, 4), max_size=3)):
+            stored.drop(wanted)
+            dropped += max(0, min(wanted, chunks - dropped - 1))
+        stored.flush()
+        if data.draw(st.booleans()):
+            stored = StoredSamples(Path(folder), 0, CHANNELS)
+        stored.append(whole.part(cut, count))
+        left = whole.part(dropped * CHUNK, count)
+        assert (stored.dropped, stored.count) == (dropped * CHUNK, len(left))
+        assert (stored.first_ns, stored.last_ns) == (int(left.time[0]), int(left.time[-1]))
+        assert stored.cycles(0, stored.count).tolist() == left.cycle.tolist()
+        _check_window(stored, left, None, None, data.draw(st.integers(1, 500)))
+        low, high = int(whole.time[0]), int(whole.time[-1])
+        a, b = sorted((data.draw(st.integers(low, high)), data.draw(st.integers(low, high))))
+        _check_window(stored, left, a, b, data.draw(st.integers(1, 500)))
+        ends = left.time[CHUNK - 1 : len(left) // CHUNK * CHUNK : CHUNK]
+        assert stored.chunks_before(a) == int((ends < a).sum())
+
+
+def test_dropped_chunks_give_their_room_back(tmp_path: Path) -> None:
+    stored = StoredSamples(tmp_path, 0, CHANNELS)
+    stored.append(batch(8 * CHUNK))
+    before = stored.bytes
+    stored.drop(6)
+    assert stored.count == 2 * CHUNK
+    # Pages that are shared with what is left stay.
+    assert (
+        before - 6 * stored.bytes_per_chunk <= stored.bytes <= before - 6 * stored.bytes_per_chunk + 5 * 4096
+    )
+    taken = sum(path.stat().st_blocks * 512 for path in tmp_path.iterdir())
+    assert taken < before / 2

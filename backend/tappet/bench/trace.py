@@ -17,7 +17,8 @@ import numpy as np
 
 from tappet.bench.report import Report, Row
 from tappet.traces.chunks import CHUNK, StoredSamples
-from tappet.traces.samples import Batch, BatchSamples, ChannelInfo
+from tappet.traces.recording import ChannelInfo
+from tappet.traces.samples import Batch, BatchSamples
 from tappet.traces.windows import window
 
 SAMPLES = 10_000_000

@@ -200,8 +200,8 @@ def _records(
     status: TraceStatus, batches: list[list[Batch]], *, whole: bool
 ) -> list[tuple[RecordInfo, Samples]]:
     """What was recorded: all of it, or what the rings show around their triggers."""
-    from tappet.traces.recording import RecordInfo
-    from tappet.traces.samples import BatchSamples, channels_of, empty_batch, joined
+    from tappet.traces.recording import RecordInfo, channels_of
+    from tappet.traces.samples import BatchSamples, empty_batch, joined
 
     records: list[tuple[RecordInfo, Samples]] = []
     for record, found in zip(status.records, batches, strict=True):

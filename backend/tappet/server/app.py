@@ -28,6 +28,7 @@ from tappet.server.docs import routes as routes_docs
 from tappet.server.documentation import routes as routes_documentation
 from tappet.server.events import routes as routes_events
 from tappet.server.exchange import routes as routes_exchange
+from tappet.server.flight import recording_routes as routes_flight_recordings
 from tappet.server.flight import routes as routes_flight
 from tappet.server.guard import RequestGuard
 from tappet.server.health import routes as routes_health
@@ -42,7 +43,6 @@ from tappet.server.persistent import routes as routes_persistent
 from tappet.server.personal_settings import routes as routes_settings
 from tappet.server.projects import routes as routes_projects
 from tappet.server.recipes import routes as routes_recipes
-from tappet.server.recordings import routes as routes_flight_recordings
 from tappet.server.runtimes import operations
 from tappet.server.runtimes import routes as routes_runtimes
 from tappet.server.runtimes.plc_client import Connect

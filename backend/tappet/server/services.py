@@ -186,7 +186,7 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
         commissioning=commissioning,
         cams=CamCalculator(objects),
         debug=DebugVariants(commissioning),
-        traces=Traces(settings.data_dir / "recordings", settings.recordings_gib << 30),
+        traces=Traces(settings.data_dir / "recordings", settings.recordings_gib << 30, database),
     )
     services.audit_reserve.try_move(database)
     if database.read(accounts.count) == 0:

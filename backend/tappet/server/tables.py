@@ -1,9 +1,10 @@
-"""Database tables of accounts, audit, test runs and runtimes, beside those of the project store."""
+"""Database tables of accounts, audit, test runs, recordings, runtimes, beside the project store."""
 
 from __future__ import annotations
 
 from sqlalchemy import (
     JSON,
+    BigInteger,
     Boolean,
     Column,
     Float,
@@ -106,6 +107,36 @@ test_runs = Table(
     Column("report", JSON, nullable=False),
 )
 """The last one of each application: the revision of the project, and the digest of what was tested."""
+
+trace_recordings = Table(
+    "trace_recordings",
+    metadata,
+    Column("id", String(32), primary_key=True),
+    Column("title", Text, nullable=False),
+    Column("comment", Text, nullable=False),
+    Column("trace", Text, nullable=False),
+    Column("trace_key", Text, nullable=False),
+    Column("application", Text, nullable=False),
+    Column("runtime_id", String(32), nullable=True),
+    Column("runtime", Text, nullable=False),
+    Column("project_id", String(32), nullable=True),
+    Column("started_by", String(64), nullable=False),
+    Column("started_at", UtcDateTime, nullable=False),
+    Column("ended_at", UtcDateTime, nullable=True),
+    Column("state", String(16), nullable=False),
+    Column("problem", Text, nullable=True),
+    Column("keep_bytes", BigInteger, nullable=True),
+    Column("keep_seconds", Integer, nullable=True),
+    Column("lost", BigInteger, nullable=False),
+    Column("dropped", BigInteger, nullable=False),
+    Column("bytes", BigInteger, nullable=False),
+    Column("first_ns", BigInteger, nullable=True),
+    Column("last_ns", BigInteger, nullable=True),
+    Column("records", JSON, nullable=False),
+    Index("ix_trace_recordings_started_at", "started_at"),
+    Index("ix_trace_recordings_project_id", "project_id"),
+)
+"""What lists show of stored recordings; their folders hold the samples, and all that makes a row anew."""
 
 runtimes = Table(
     "runtimes",

@@ -7,17 +7,17 @@ integral does not grow over one.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal
 
 import numpy as np
 from msgspec import Struct
 
-from tappet.traces.samples import Batch, ChannelInfo, Integers, Reals, Samples
+from tappet.traces.questions import Operation, WindowFunction
+from tappet.traces.recording import ChannelInfo
+from tappet.traces.samples import Batch, Integers, Reals, Samples
 
 BLOCK = 1 << 18
 MOST_SPECTRUM = 1 << 20
 """Samples of one spectrum; a longer span is averaged over such pieces (Welch's method, without overlap)."""
-WindowFunction = Literal["rectangular", "hann", "hamming", "blackman", "flat_top"]
 _COSINES: dict[str, tuple[float, ...]] = {
     "rectangular": (1.0,),
     "hann": (0.5, 0.5),
@@ -142,7 +142,7 @@ def _even(samples: Samples, channel: int, start: int, stop: int) -> Reals:
 class Derived:
     """The derivative or the integral of a channel, as samples of their own that are computed in blocks."""
 
-    def __init__(self, samples: Samples, channel: int, operation: Literal["derivative", "integral"]) -> None:
+    def __init__(self, samples: Samples, channel: int, operation: Operation) -> None:
         self._samples = samples
         self._channel = channel
         known = samples.channels[channel]

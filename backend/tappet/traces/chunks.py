@@ -3,12 +3,14 @@
 A file of chunks is only appended to, a chunk at a time, so that what was written stays readable whatever
 happens to the process. Within a chunk a column lies in one piece. Of the pyramid only the topmost level is
 kept in memory (16 bytes a channel for 4096 samples): any window reads a few pages of the level whose blocks
-fit its width.
+fit its width. The oldest chunks can be dropped: their room in the files is given back, and what is left is
+numbered from 0 again.
 """
 
 from __future__ import annotations
 
 import os
+from bisect import bisect_left
 from collections.abc import Sequence
 from itertools import accumulate
 from pathlib import Path
@@ -17,9 +19,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from tappet.traces.holes import punch_hole
+from tappet.traces.recording import ChannelInfo
 from tappet.traces.samples import (
     Batch,
-    ChannelInfo,
     Flags,
     Integers,
     Reals,
@@ -44,6 +47,9 @@ class ChunkFiles:
         self._samples = folder / f"record{record}.samples"
         self._levels = [folder / f"record{record}.by{size}" for size in LEVELS]
         self._tail = folder / f"record{record}.tail.npz"
+        self._dropped_file = folder / f"record{record}.dropped"
+        self.dropped = int(self._dropped_file.read_text()) if self._dropped_file.exists() else 0
+        """Chunks that were dropped; all numbers are of those behind them."""
         self._maps: dict[Path, npt.NDArray[Any]] = {}
 
     @property
@@ -60,20 +66,37 @@ class ChunkFiles:
                 _size(path) // (width * (CHUNK // size))
                 for path, size in zip(self._levels, LEVELS, strict=True)
             ]
-        return min(counts)
+        return max(0, min(counts) - self.dropped)
 
     def bytes(self) -> int:
         """On disk."""
-        return _size(self._samples) + _size(self._tail) + sum(_size(path) for path in self._levels)
+        return sum(_room(path) for path in (self._samples, self._tail, *self._levels))
+
+    def sizes(self) -> list[tuple[Path, int]]:
+        """Bytes that a chunk has in each file."""
+        width = 16 * len(self.channels)
+        sizes = [self.chunk_size, *(width * (CHUNK // size) for size in LEVELS)]
+        return list(zip((self._samples, *self._levels), sizes, strict=True))
+
+    def drop(self, count: int) -> int:
+        """Drop the oldest chunks; how many, as the last one stays."""
+        count = min(count, self.chunks() - 1)
+        if count <= 0:
+            return 0
+        self.dropped += count
+        unfinished = self._dropped_file.with_suffix(".new")
+        unfinished.write_text(str(self.dropped))
+        unfinished.replace(self._dropped_file)
+        for path, size in self.sizes():
+            punch_hole(path, self.dropped * size)
+        return count
 
     def cut(self) -> int:
         """Drop what a killed process has left behind the last complete chunk; how many there are."""
         count = self.chunks()
-        width = 16 * len(self.channels)
-        sizes = [self.chunk_size, *(width * (CHUNK // size) for size in LEVELS)]
-        for path, size in zip((self._samples, *self._levels), sizes, strict=True):
-            if _size(path) > count * size:
-                os.truncate(path, count * size)
+        for path, size in self.sizes():
+            if _size(path) > (self.dropped + count) * size:
+                os.truncate(path, (self.dropped + count) * size)
         return count
 
     def append(self, batch: Batch) -> Reals:
@@ -99,8 +122,8 @@ class ChunkFiles:
     def _column(self, number: int, count: int) -> npt.NDArray[Any]:
         """A column as a table of chunks."""
         dtype, start = self.dtypes[number], self.offsets[number]
-        raw = self._mapped(self._samples, np.uint8, (self.chunk_size,), count)
-        return raw[:, start : start + dtype.itemsize * CHUNK].view(dtype)
+        raw = self._mapped(self._samples, np.uint8, (self.chunk_size,), self.dropped + count)
+        return raw[self.dropped :, start : start + dtype.itemsize * CHUNK].view(dtype)
 
     def column(self, number: int, first: int, last: int) -> npt.NDArray[Any]:
         """A column of chunks `first` to `last`: cycle, time, gap, then the channels."""
@@ -118,7 +141,8 @@ class ChunkFiles:
         if last <= first:
             return np.empty((2, 0))
         shape = (len(self.channels), 2, CHUNK // LEVELS[number])
-        raw = self._mapped(self._levels[number], np.float64, shape, last)[first:last]
+        whole = self._mapped(self._levels[number], np.float64, shape, self.dropped + last)
+        raw = whole[self.dropped + first : self.dropped + last]
         return np.ascontiguousarray(raw[:, channel].transpose(1, 0, 2)).reshape(2, -1)
 
     def keep_tail(self, batch: Batch) -> None:
@@ -142,6 +166,14 @@ class ChunkFiles:
 
 def _size(path: Path) -> int:
     return path.stat().st_size if path.exists() else 0
+
+
+def _room(path: Path) -> int:
+    """Bytes that a file takes: fewer than its size where it begins with a hole."""
+    if not path.exists():
+        return 0
+    found = path.stat()
+    return min(found.st_size, found.st_blocks * 512)
 
 
 def _append(path: Path, data: bytes) -> None:
@@ -182,6 +214,38 @@ class StoredSamples:
     def bytes(self) -> int:
         """On disk."""
         return self._files.bytes()
+
+    @property
+    def dropped(self) -> int:
+        """Samples that were there before the first one."""
+        return self._files.dropped * CHUNK
+
+    @property
+    def first_ns(self) -> int | None:
+        """Unix time of the first sample."""
+        return int(self.times(0, 1)[0]) if self.count else None
+
+    @property
+    def last_ns(self) -> int | None:
+        """Unix time of the last sample."""
+        return int(self.times(self.count - 1, self.count)[0]) if self.count else None
+
+    @property
+    def bytes_per_chunk(self) -> int:
+        """What dropping one gives back."""
+        return sum(size for _, size in self._files.sizes())
+
+    def drop(self, chunks: int) -> None:
+        """Drop the oldest chunks; the last one stays."""
+        count = self._files.drop(chunks)
+        self._chunks -= count
+        self._top = [[low[count:], high[count:]] for low, high in self._top]
+        for kept in (self._begins, self._ends, self._gaps):
+            del kept[:count]
+
+    def chunks_before(self, time: int) -> int:
+        """How many chunks end before a time."""
+        return bisect_left(self._ends, time)
 
     @property
     def last_cycle(self) -> int | None:

@@ -2,9 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from msgspec import Struct
 
-from tappet.traces.samples import ChannelInfo
+from tappet.runtime.trace_record import TraceSource
+
+
+class ChannelInfo(Struct, frozen=True):
+    """A sampled channel."""
+
+    index: int
+    """Number of the channel in the settings of the record."""
+    name: str
+    type: str
+    number: str
+    """How its values are kept, as numpy calls it."""
+
+
+def channels_of(sources: Sequence[TraceSource]) -> list[ChannelInfo]:
+    """Of a record in the runtime."""
+    return [ChannelInfo(s.channel, s.name, s.type_name, s.number) for s in sources]
 
 
 class RecordInfo(Struct, frozen=True):

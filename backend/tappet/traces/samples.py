@@ -14,26 +14,11 @@ import numpy.typing as npt
 from msgspec import Struct
 
 from tappet.runtime.trace_record import HEADER_SIZE, TraceSource
+from tappet.traces.recording import ChannelInfo
 
 Reals = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 Flags = npt.NDArray[np.uint8]
-
-
-class ChannelInfo(Struct, frozen=True):
-    """A sampled channel."""
-
-    index: int
-    """Number of the channel in the settings of the record."""
-    name: str
-    type: str
-    number: str
-    """How its values are kept, as numpy calls it."""
-
-
-def channels_of(sources: Sequence[TraceSource]) -> list[ChannelInfo]:
-    """Of a record in the runtime."""
-    return [ChannelInfo(s.channel, s.name, s.type_name, s.number) for s in sources]
 
 
 class Batch(Struct, frozen=True):

@@ -16,9 +16,6 @@ import numpy as np
 from tappet.traces.chunks import LEVELS
 from tappet.traces.samples import Reals, Samples
 
-MOST_POINTS = 20_000
-"""Width of a window."""
-
 
 def block_length(count: int, width: int) -> int:
     """Samples in a point: 1 as long as there are at most two a pixel, else a multiple of a level."""

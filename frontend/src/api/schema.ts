@@ -1953,7 +1953,7 @@ export interface paths {
         };
         /**
          * List Recordings
-         * @description Stored recordings, newest first: all, those of a project, or those of a trace.
+         * @description Stored recordings, newest first: all, or those of a project, of a runtime, of a trace, of a time.
          */
         get: operations["list_recordings"];
         put?: never;
@@ -8960,10 +8960,25 @@ export interface components {
             /** Comment */
             comment: string;
             data: components["schemas"]["TraceData-Output"];
+            /**
+             * Dropped
+             * @description Samples that these limits have cost.
+             */
+            dropped: number;
             /** Ended At */
             ended_at: string | null;
             /** Id */
             id: string;
+            /**
+             * Keep Bytes
+             * @description Where it takes more, its oldest samples are dropped.
+             */
+            keep_bytes: number | null;
+            /**
+             * Keep Seconds
+             * @description Older samples are dropped; counted from the newest one.
+             */
+            keep_seconds: number | null;
             /** Lost */
             lost: number;
             /**
@@ -9061,10 +9076,25 @@ export interface components {
             bytes: number;
             /** Comment */
             comment: string;
+            /**
+             * Dropped
+             * @description Samples that these limits have cost.
+             */
+            dropped: number;
             /** Ended At */
             ended_at: string | null;
             /** Id */
             id: string;
+            /**
+             * Keep Bytes
+             * @description Where it takes more, its oldest samples are dropped.
+             */
+            keep_bytes: number | null;
+            /**
+             * Keep Seconds
+             * @description Older samples are dropped; counted from the newest one.
+             */
+            keep_seconds: number | null;
             /** Lost */
             lost: number;
             /**
@@ -9114,9 +9144,22 @@ export interface components {
          * @description A long-term recording to be begun.
          */
         RecordingOrder: {
+            /**
+             * Keep Mib
+             * @description Where it takes more, its oldest samples are dropped.
+             */
+            keep_mib?: number | null;
+            /**
+             * Keep Seconds
+             * @description Older samples are dropped, counted from the newest.
+             */
+            keep_seconds?: number | null;
             /** Project Id */
             project_id?: string | null;
-            /** Seconds */
+            /**
+             * Seconds
+             * @description It ends then by itself.
+             */
             seconds?: number | null;
             /**
              * Title
@@ -16855,7 +16898,12 @@ export interface operations {
         parameters: {
             query?: {
                 project_id?: string | null;
+                runtime_id?: string | null;
                 trace?: string | null;
+                /** @description Sampled later, too. */
+                from?: string | null;
+                /** @description Sampled earlier, too. */
+                to?: string | null;
             };
             header?: never;
             path?: never;
@@ -17065,13 +17113,13 @@ export interface operations {
                 /** @description Among the sampled channels. */
                 channel: number;
                 operation: "derivative" | "integral";
+                /** @description Points of the diagram. */
+                width?: number;
                 record?: number;
                 /** @description Unix time in ns. */
                 from?: number | null;
                 /** @description Unix time in ns. */
                 to?: number | null;
-                /** @description Points of the diagram. */
-                width?: number;
             };
             header?: never;
             path: {
@@ -17156,9 +17204,9 @@ export interface operations {
     get_recording_samples: {
         parameters: {
             query?: {
-                record?: number;
                 first?: number;
                 count?: number;
+                record?: number;
             };
             header?: never;
             path: {
@@ -17202,12 +17250,12 @@ export interface operations {
             query: {
                 /** @description Among the sampled channels. */
                 channel: number;
+                window?: "rectangular" | "hann" | "hamming" | "blackman" | "flat_top";
                 record?: number;
                 /** @description Unix time in ns. */
                 from?: number | null;
                 /** @description Unix time in ns. */
                 to?: number | null;
-                window?: "rectangular" | "hann" | "hamming" | "blackman" | "flat_top";
             };
             header?: never;
             path: {
@@ -17297,14 +17345,14 @@ export interface operations {
     get_recording_window: {
         parameters: {
             query?: {
+                /** @description Points of the diagram. */
+                width?: number;
+                channels?: string | null;
                 record?: number;
                 /** @description Unix time in ns. */
                 from?: number | null;
                 /** @description Unix time in ns. */
                 to?: number | null;
-                /** @description Points of the diagram. */
-                width?: number;
-                channels?: string | null;
             };
             header?: never;
             path: {
@@ -19561,13 +19609,13 @@ export interface operations {
                 /** @description Among the sampled channels. */
                 channel: number;
                 operation: "derivative" | "integral";
+                /** @description Points of the diagram. */
+                width?: number;
                 record?: number;
                 /** @description Unix time in ns. */
                 from?: number | null;
                 /** @description Unix time in ns. */
                 to?: number | null;
-                /** @description Points of the diagram. */
-                width?: number;
             };
             header?: never;
             path: {
@@ -19781,9 +19829,9 @@ export interface operations {
     get_trace_samples: {
         parameters: {
             query?: {
-                record?: number;
                 first?: number;
                 count?: number;
+                record?: number;
             };
             header?: never;
             path: {
@@ -19873,12 +19921,12 @@ export interface operations {
             query: {
                 /** @description Among the sampled channels. */
                 channel: number;
+                window?: "rectangular" | "hann" | "hamming" | "blackman" | "flat_top";
                 record?: number;
                 /** @description Unix time in ns. */
                 from?: number | null;
                 /** @description Unix time in ns. */
                 to?: number | null;
-                window?: "rectangular" | "hann" | "hamming" | "blackman" | "flat_top";
             };
             header?: never;
             path: {
@@ -20052,14 +20100,14 @@ export interface operations {
     get_trace_window: {
         parameters: {
             query?: {
+                /** @description Points of the diagram. */
+                width?: number;
+                channels?: string | null;
                 record?: number;
                 /** @description Unix time in ns. */
                 from?: number | null;
                 /** @description Unix time in ns. */
                 to?: number | null;
-                /** @description Points of the diagram. */
-                width?: number;
-                channels?: string | null;
             };
             header?: never;
             path: {

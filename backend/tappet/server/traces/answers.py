@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, field
+from contextlib import nullcontext
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Any, TypeVar
 
-from fastapi import Query
 from fastapi.responses import FileResponse, Response, StreamingResponse
 from msgspec import structs
 from starlette.background import BackgroundTask
@@ -17,52 +15,12 @@ from starlette.concurrency import run_in_threadpool
 
 from tappet.server.problems import Problem
 from tappet.server.traces.shapes import ChannelSpectrum, ChannelStatistics, ExportFormat
+from tappet.server.traces.shown import BINARY, Shown, Span
 from tappet.traces import analysis, formats, windows
-from tappet.traces.recording import RecordInfo
-from tappet.traces.samples import BatchSamples, Samples
+from tappet.traces.questions import MOST_SAMPLES, Operation, WindowFunction
+from tappet.traces.samples import BatchSamples
 
 T = TypeVar("T")
-BINARY = "application/vnd.tappet.samples"
-MOST_SAMPLES = 1_000_000
-"""In one answer of raw samples, and of what is computed of a span as a whole."""
-RecordNumber = Annotated[int, Query(ge=0, le=1000)]
-ChannelNumber = Annotated[int, Query(ge=0, le=1000, description="Among the sampled channels.")]
-Start = Annotated[int | None, Query(alias="from", ge=0, lt=1 << 63, description="Unix time in ns.")]
-End = Annotated[int | None, Query(alias="to", ge=0, lt=1 << 63, description="Unix time in ns.")]
-Width = Annotated[int, Query(ge=1, le=windows.MOST_POINTS, description="Points of the diagram.")]
-Chosen = Annotated[str | None, Query(pattern=r"^\d{1,3}(,\d{1,3})*$", max_length=1000)]
-First = Annotated[int, Query(ge=0, lt=1 << 53)]
-Count = Annotated[int, Query(ge=1, le=MOST_SAMPLES)]
-Operation = Literal["derivative", "integral"]
-Smoothing = Annotated[analysis.WindowFunction, Query()]
-BINARY_ANSWER: dict[int | str, dict[str, Any]] = {
-    200: {
-        "content": {BINARY: {"schema": {"type": "string", "format": "binary"}}},
-        "description": "docs/trace.md",
-    }
-}
-FILE_ANSWER: dict[int | str, dict[str, Any]] = {
-    200: {
-        "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}},
-        "description": "File",
-    }
-}
-
-
-@dataclass(frozen=True, slots=True)
-class Shown:
-    """Samples of one record."""
-
-    samples: Samples
-    info: RecordInfo
-    first_number: int = 0
-    lock: AbstractContextManager[Any] = field(default_factory=nullcontext)
-
-    def channel(self, number: int) -> int:
-        """A channel; raises a 404 problem."""
-        if number >= len(self.samples.channels):
-            raise Problem(404, "not-found", f"The record '{self.info.name}' has no channel number {number}.")
-        return number
 
 
 async def _computed(shown: Shown, work: Callable[[], T]) -> T:
@@ -77,14 +35,12 @@ def _numbers(chosen: str | None) -> list[int] | None:
     return None if chosen is None else [int(text) for text in chosen.split(",")]
 
 
-async def window(
-    shown: Shown, start: int | None, end: int | None, width: int, chosen: str | None
-) -> Response:
+async def window(shown: Shown, span: Span, width: int, chosen: str | None) -> Response:
     """Samples of a time, or their extremes."""
     data = await _computed(
         shown,
         lambda: windows.window(
-            shown.samples, start, end, width, _numbers(chosen),
+            shown.samples, span.start, span.end, width, _numbers(chosen),
             trigger_ns=shown.info.trigger_ns, first_number=shown.first_number,
         ),
     )  # fmt: skip
@@ -104,41 +60,37 @@ async def samples(shown: Shown, first: int, count: int) -> Response:
     return Response(data, media_type=BINARY)
 
 
-def _span(shown: Shown, start: int | None, end: int | None) -> tuple[int, int]:
+def _numbers_of(shown: Shown, span: Span) -> tuple[int, int]:
     """Numbers of the samples from a time to another one, both inclusive."""
-    first = 0 if start is None else shown.samples.search(start)
-    stop = shown.samples.count if end is None else shown.samples.search(end + 1)
+    first = 0 if span.start is None else shown.samples.search(span.start)
+    stop = shown.samples.count if span.end is None else shown.samples.search(span.end + 1)
     return first, max(first, stop)
 
 
-async def statistics(shown: Shown, channel: int, start: int | None, end: int | None) -> ChannelStatistics:
+async def statistics(shown: Shown, channel: int, span: Span) -> ChannelStatistics:
     """Least, largest and mean values of a span."""
     number = shown.channel(channel)
     found = await _computed(
-        shown, lambda: analysis.statistics(shown.samples, number, *_span(shown, start, end))
+        shown, lambda: analysis.statistics(shown.samples, number, *_numbers_of(shown, span))
     )
     return ChannelStatistics.model_validate(structs.asdict(found))
 
 
-async def spectrum(
-    shown: Shown, channel: int, start: int | None, end: int | None, name: analysis.WindowFunction
-) -> ChannelSpectrum:
+async def spectrum(shown: Shown, channel: int, span: Span, name: WindowFunction) -> ChannelSpectrum:
     """Amplitudes of the sines that a span consists of."""
     number = shown.channel(channel)
     found = await _computed(
-        shown, lambda: analysis.spectrum(shown.samples, number, *_span(shown, start, end), name)
+        shown, lambda: analysis.spectrum(shown.samples, number, *_numbers_of(shown, span), name)
     )
     return ChannelSpectrum.model_validate(structs.asdict(found))
 
 
-async def derived(
-    shown: Shown, channel: int, operation: Operation, start: int | None, end: int | None, width: int
-) -> Response:
+async def derived(shown: Shown, channel: int, operation: Operation, span: Span, width: int) -> Response:
     """The derivative or integral of a span."""
     number = shown.channel(channel)
 
     def work() -> bytes:
-        first, stop = _span(shown, start, end)
+        first, stop = _numbers_of(shown, span)
         if stop - first > MOST_SAMPLES:
             raise Problem(
                 422,

@@ -12,7 +12,8 @@ from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.runtimes.plc_client import PlcClient
 from tappet.traces.reader import RecordReader
-from tappet.traces.samples import Batch, BatchSamples, channels_of, empty_batch, joined
+from tappet.traces.recording import channels_of
+from tappet.traces.samples import Batch, BatchSamples, empty_batch, joined
 
 FRESH_S = 0.05
 """What was read so short a time ago is given to the next one who asks."""
@@ -23,12 +24,6 @@ FORGOTTEN_S = 120.0
 def no_trace(name: str) -> Problem:
     """A 404 problem."""
     return Problem(404, "not-found", f"No trace '{name}' runs in the controller; download it.")
-
-
-async def running_traces(link: RuntimeLink) -> list[TraceStatus]:
-    """All traces of a runtime; none without application."""
-    async with link.client() as client:
-        return await client.call(ListTraces())
 
 
 class RecordMirror:

@@ -15,9 +15,7 @@ from tappet.runtime.sampled import TraceStatus
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.traces.store import RecordingStore, StoredRecording
-from tappet.traces.reader import RecordReader
-from tappet.traces.recording import RecordInfo
-from tappet.traces.samples import channels_of
+from tappet.traces.recording import RecordInfo, channels_of
 
 log = logging.getLogger(__name__)
 READ_S = 0.5
@@ -44,6 +42,8 @@ class LongRecording:
         self, store: RecordingStore, link: RuntimeLink, status: TraceStatus, recording: StoredRecording,
         seconds: int | None,
     ) -> None:  # fmt: skip
+        from tappet.traces.reader import RecordReader
+
         self._store = store
         self._link = link
         self._name = status.name
@@ -84,7 +84,7 @@ class LongRecording:
             log.exception("recording %s failed", self._name)
             problem = "The recording failed; the log of the server says why."
         state = "complete" if problem is None else "interrupted"
-        await asyncio.to_thread(self._recording.flush)
+        await asyncio.to_thread(self._store.flush, self._recording)
         lost = sum(self.lost())
         await asyncio.to_thread(
             self._store.change, self.id, state=state, problem=problem, ended_at=datetime.now(UTC), lost=lost
@@ -108,7 +108,7 @@ class LongRecording:
                 return None
             now = time.monotonic()
             if now - flushed > FLUSH_S:
-                await asyncio.to_thread(self._recording.flush)
+                await asyncio.to_thread(self._store.flush, self._recording)
                 flushed = now
             if now - checked > QUOTA_S:
                 checked = now

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import tempfile
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 from fastapi import Depends, Path, Query, Request
 from fastapi.responses import Response
+from pydantic import AwareDatetime
 from starlette.concurrency import run_in_threadpool
 
 from tappet.project.trace import TraceData
@@ -17,20 +18,21 @@ from tappet.server.dependencies import ServicesDep, Viewer
 from tappet.server.problems import Problem
 from tappet.server.routing import Router
 from tappet.server.spoken import LanguageDep, in_language
-from tappet.server.traces import answers
+from tappet.server.traces.index import Wanted
+from tappet.server.traces.sample_routes import FILE_ANSWER, Format, RecordNumber, add_sample_routes
 from tappet.server.traces.service import recording_info, recording_with_settings, shown_recording
 from tappet.server.traces.shapes import (
-    ChannelSpectrum,
-    ChannelStatistics,
-    ExportFormat,
     Recording,
     RecordingChange,
     RecordingInfo,
     RecordingList,
     Title,
 )
+from tappet.server.traces.shown import Shown
 from tappet.server.traces.store import RecordingStore, StoredRecording
-from tappet.traces.formats import TraceFileError, TraceReader
+
+if TYPE_CHECKING:
+    from tappet.traces.formats import TraceReader
 
 router = Router(prefix="/recordings", tags=["traces"])
 LARGEST_UPLOAD = 2 << 30
@@ -59,16 +61,15 @@ def list_recordings(
     services: ServicesDep,
     language: LanguageDep,
     project_id: Annotated[str | None, Query(max_length=32)] = None,
+    runtime_id: Annotated[str | None, Query(max_length=32)] = None,
     trace: Annotated[str | None, Query(max_length=200)] = None,
+    start: Annotated[AwareDatetime | None, Query(alias="from", description="Sampled later, too.")] = None,
+    end: Annotated[AwareDatetime | None, Query(alias="to", description="Sampled earlier, too.")] = None,
 ) -> RecordingList:
-    """Stored recordings, newest first: all, those of a project, or those of a trace."""
+    """Stored recordings, newest first: all, or those of a project, of a runtime, of a trace, of a time."""
     store = services.traces.store
-    found = [
-        in_language(recording_info(one), language)
-        for one in store.all()
-        if (project_id is None or one.meta.project_id == project_id)
-        and (trace is None or one.meta.trace.upper() == trace.upper())
-    ]
+    wanted = Wanted(project_id, runtime_id, trace, start, end)
+    found = [in_language(RecordingInfo(**row), language) for row in store.found(wanted)]
     return RecordingList(recordings=found, used_bytes=store.used(), quota_bytes=store.quota_bytes)
 
 
@@ -81,6 +82,8 @@ async def load_trace(
     project_id: Annotated[str | None, Query(max_length=32)] = None,
 ) -> RecordingInfo:
     """Store the samples of a trace file (Load Trace). What is none is the problem `trace-file-invalid`."""
+    from tappet.traces.formats import TraceFileError, TraceReader
+
     with tempfile.SpooledTemporaryFile(_IN_MEMORY) as file:
         size = 0
         async for part in request.stream():
@@ -103,10 +106,17 @@ async def load_trace(
 
 
 def _settings(reader: TraceReader) -> TraceData:
+    from tappet.traces.formats import TraceFileError
+
     try:
         return TraceData.model_validate(reader.head.settings)
     except ValueError as error:
         raise TraceFileError("its settings are no settings of a trace") from error
+
+
+def _line(text: str) -> str:
+    """A name of a file as the database keeps it."""
+    return text.replace("\0", "")[:200]
 
 
 def _store(
@@ -120,7 +130,7 @@ def _store(
     """The samples as a new recording; none where the file is damaged."""
     head = reader.head
     recording = store.create(
-        title=title[:200], comment="", trace=head.name[:200], application=head.application[:200],
+        title=_line(title), comment="", trace=_line(head.name), application=_line(head.application),
         runtime_id=None, runtime="", project_id=project_id, started_by=author,
         settings=data.model_dump(mode="json"), records=head.records,
     )  # fmt: skip
@@ -128,11 +138,12 @@ def _store(
         for number in range(len(head.records)):
             for batch in reader.batches(number):
                 recording.append(number, batch)
+                store.flush(recording)
                 store.check_room()
     except BaseException:
         store.delete(recording.meta.id)
         raise
-    recording.flush()
+    store.flush(recording)
     return recording
 
 
@@ -168,82 +179,24 @@ def delete_recording(
     services.traces.store.delete(recording_id)
 
 
-@router.get("/{recording_id}/window", response_class=Response, responses=answers.BINARY_ANSWER)
-async def get_recording_window(
-    who: Viewer,
-    recording: RecordingDep,
-    record: answers.RecordNumber = 0,
-    start: answers.Start = None,
-    end: answers.End = None,
-    width: answers.Width = 1000,
-    channels: answers.Chosen = None,
-) -> Response:
-    """Samples of a time, or the least and largest values where they are many."""
-    return await answers.window(shown_recording(recording, record), start, end, width, channels)
+async def shown_record(recording: RecordingDep, record: RecordNumber = 0) -> Shown:
+    """The samples of a record of it."""
+    return shown_recording(recording, record)
 
 
-@router.get("/{recording_id}/samples", response_class=Response, responses=answers.BINARY_ANSWER)
-async def get_recording_samples(
-    who: Viewer,
-    recording: RecordingDep,
-    record: answers.RecordNumber = 0,
-    first: answers.First = 0,
-    count: answers.Count = 10_000,
-) -> Response:
-    """Samples by number."""
-    return await answers.samples(shown_recording(recording, record), first, count)
+add_sample_routes(router, "/{recording_id}", "recording", shown_record)
 
 
-@router.get("/{recording_id}/statistics")
-async def get_recording_statistics(
-    who: Viewer,
-    recording: RecordingDep,
-    channel: answers.ChannelNumber,
-    record: answers.RecordNumber = 0,
-    start: answers.Start = None,
-    end: answers.End = None,
-) -> ChannelStatistics:
-    """Least, largest and mean values."""
-    return await answers.statistics(shown_recording(recording, record), channel, start, end)
-
-
-@router.get("/{recording_id}/spectrum")
-async def get_recording_spectrum(
-    who: Viewer,
-    recording: RecordingDep,
-    channel: answers.ChannelNumber,
-    record: answers.RecordNumber = 0,
-    start: answers.Start = None,
-    end: answers.End = None,
-    window: answers.Smoothing = "hann",
-) -> ChannelSpectrum:
-    """Amplitudes of the sines that a span consists of."""
-    return await answers.spectrum(shown_recording(recording, record), channel, start, end, window)
-
-
-@router.get("/{recording_id}/derived", response_class=Response, responses=answers.BINARY_ANSWER)
-async def get_recording_derived(
-    who: Viewer,
-    recording: RecordingDep,
-    channel: answers.ChannelNumber,
-    operation: Literal["derivative", "integral"],
-    record: answers.RecordNumber = 0,
-    start: answers.Start = None,
-    end: answers.End = None,
-    width: answers.Width = 1000,
-) -> Response:
-    """The derivative or the integral of a channel."""
-    return await answers.derived(shown_recording(recording, record), channel, operation, start, end, width)
-
-
-@router.get("/{recording_id}/export", response_class=Response, responses=answers.FILE_ANSWER)
+@router.get("/{recording_id}/export", response_class=Response, responses=FILE_ANSWER)
 async def export_recording(
     who: Viewer,
     recording: RecordingDep,
-    record: answers.RecordNumber = 0,
-    form: Annotated[ExportFormat, Query(alias="format")] = "trace",
+    record: RecordNumber = 0,
+    form: Format = "trace",
 ) -> Response:
     """A recording as a file: CSV or Parquet of one record, or a trace file (Save Trace)."""
+    from tappet.server.traces import answers
+
     shown_recording(recording, record)
     records = [shown_recording(recording, number) for number in range(len(recording.records))]
     meta = recording.meta

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from fastapi import Path, Query
 from fastapi.responses import Response
 from msgspec import structs
+from starlette.concurrency import run_in_threadpool
 
 from tappet.project.naming import MAX_NAME
 from tappet.project.trace import axis_channels
@@ -20,22 +21,19 @@ from tappet.server.problems import Problem
 from tappet.server.routing import Router
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.services import Services
-from tappet.server.traces import answers
-from tappet.server.traces.mirror import running_traces
 from tappet.server.traces.recorder import record_infos
+from tappet.server.traces.sample_routes import FILE_ANSWER, Format, RecordNumber, add_sample_routes
 from tappet.server.traces.service import (
     compiled,
     download,
     recording_info,
+    running_traces,
     settings_of,
     shown_mirror,
     tasks_of,
 )
 from tappet.server.traces.shapes import (
     AxisTemplate,
-    ChannelSpectrum,
-    ChannelStatistics,
-    ExportFormat,
     RecordingInfo,
     RecordingOrder,
     SnapshotOrder,
@@ -45,6 +43,7 @@ from tappet.server.traces.shapes import (
     TraceSettingsOrder,
     TraceState,
 )
+from tappet.server.traces.shown import Shown
 from tappet.server.traces.store import RecordingOrigin
 
 router = Router(prefix="/runtimes/{runtime_id}/traces", tags=["traces"])
@@ -159,99 +158,26 @@ async def reset_trigger(
     return await _commanded(act, link, services, name, "rearm")
 
 
-async def _shown(services: Services, link: RuntimeLink, name: str, record: int) -> answers.Shown:
+async def shown_trace(name: Name, link: LinkDep, services: ServicesDep, record: RecordNumber = 0) -> Shown:
+    """The samples that the ring of a record holds now."""
     return shown_mirror(await services.traces.mirrors.of(link, name).record(record))
 
 
-@router.get("/{name}/window", response_class=Response, responses=answers.BINARY_ANSWER)
-async def get_trace_window(
-    name: Name,
-    who: Viewer,
-    link: LinkDep,
-    services: ServicesDep,
-    record: answers.RecordNumber = 0,
-    start: answers.Start = None,
-    end: answers.End = None,
-    width: answers.Width = 1000,
-    channels: answers.Chosen = None,
-) -> Response:
-    """Samples of a time, or the least and largest values where they are many."""
-    return await answers.window(await _shown(services, link, name, record), start, end, width, channels)
+add_sample_routes(router, "/{name}", "trace", shown_trace)
 
 
-@router.get("/{name}/samples", response_class=Response, responses=answers.BINARY_ANSWER)
-async def get_trace_samples(
-    name: Name,
-    who: Viewer,
-    link: LinkDep,
-    services: ServicesDep,
-    record: answers.RecordNumber = 0,
-    first: answers.First = 0,
-    count: answers.Count = 10_000,
-) -> Response:
-    """Samples by number."""
-    return await answers.samples(await _shown(services, link, name, record), first, count)
-
-
-@router.get("/{name}/statistics")
-async def get_trace_statistics(
-    name: Name,
-    who: Viewer,
-    link: LinkDep,
-    services: ServicesDep,
-    channel: answers.ChannelNumber,
-    record: answers.RecordNumber = 0,
-    start: answers.Start = None,
-    end: answers.End = None,
-) -> ChannelStatistics:
-    """Least, largest and mean values."""
-    return await answers.statistics(await _shown(services, link, name, record), channel, start, end)
-
-
-@router.get("/{name}/spectrum")
-async def get_trace_spectrum(
-    name: Name,
-    who: Viewer,
-    link: LinkDep,
-    services: ServicesDep,
-    channel: answers.ChannelNumber,
-    record: answers.RecordNumber = 0,
-    start: answers.Start = None,
-    end: answers.End = None,
-    window: answers.Smoothing = "hann",
-) -> ChannelSpectrum:
-    """Amplitudes of the sines that a span consists of."""
-    return await answers.spectrum(await _shown(services, link, name, record), channel, start, end, window)
-
-
-@router.get("/{name}/derived", response_class=Response, responses=answers.BINARY_ANSWER)
-async def get_trace_derived(
-    name: Name,
-    who: Viewer,
-    link: LinkDep,
-    services: ServicesDep,
-    channel: answers.ChannelNumber,
-    operation: Literal["derivative", "integral"],
-    record: answers.RecordNumber = 0,
-    start: answers.Start = None,
-    end: answers.End = None,
-    width: answers.Width = 1000,
-) -> Response:
-    """The derivative or the integral of a channel."""
-    shown = await _shown(services, link, name, record)
-    return await answers.derived(shown, channel, operation, start, end, width)
-
-
-@router.get("/{name}/export", response_class=Response, responses=answers.FILE_ANSWER)
+@router.get("/{name}/export", response_class=Response, responses=FILE_ANSWER)
 async def export_trace(
     name: Name,
     who: Viewer,
     link: LinkDep,
     services: ServicesDep,
-    record: answers.RecordNumber = 0,
-    form: Annotated[ExportFormat, Query(alias="format")] = "trace",
+    record: RecordNumber = 0,
+    form: Format = "trace",
 ) -> Response:
     """What a trace holds, as a file: CSV or Parquet of one record, or a trace file (Save Trace)."""
+    from tappet.server.traces import answers
+
     mirror = services.traces.mirrors.of(link, name)
     await mirror.record(record)
     status = mirror.status
@@ -306,12 +232,17 @@ async def begin_recording(
 ) -> RecordingInfo:
     """Record every sample from now on, until it is ended, `seconds` have passed or the trace ends."""
     traces = services.traces
-    fields = await _recording_fields(link, services, name, body, act.who.username)
+    limits = {
+        "keep_bytes": None if body.keep_mib is None else body.keep_mib << 20,
+        "keep_seconds": body.keep_seconds,
+    }
+    fields = await _recording_fields(link, services, name, body, act.who.username) | limits
     if traces.recordings.of(link.id, name) is not None:
         raise Problem(409, "still-recording", f"The trace '{name}' is being recorded already.")
     await act.begin_async(Act("trace-recording", name, None, body.title, body.project_id, link.id))
     status = await traces.mirrors.of(link, name).refresh()
-    recording = traces.store.create(records=record_infos(status), state="recording", **fields)
+    records = record_infos(status)
+    recording = await run_in_threadpool(traces.store.create, records=records, state="recording", **fields)
     traces.recordings.begin(link, status, recording, body.seconds)
     return recording_info(recording)
 

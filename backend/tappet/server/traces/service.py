@@ -4,46 +4,51 @@ from __future__ import annotations
 
 import asyncio
 from datetime import UTC, datetime
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from msgspec import structs
-
 from tappet.project.trace import TraceData
 from tappet.runtime.operations.tasks import ListTasks
-from tappet.runtime.operations.traces import DownloadTrace, UploadTrace
+from tappet.runtime.operations.traces import DownloadTrace, ListTraces, UploadTrace
 from tappet.runtime.sampled import TraceSpec, TraceStatus
 from tappet.runtime.trace_record import TraceRecordStatus
+from tappet.server.database import Database
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
-from tappet.server.traces.answers import Shown
-from tappet.server.traces.mirror import Mirrors, RecordMirror, TraceMirror
+from tappet.server.traces.index import RecordingIndex
 from tappet.server.traces.recorder import LongRecordings, record_infos
 from tappet.server.traces.shapes import (
     Recording,
     RecordingInfo,
-    RecordingRecord,
     RunningRecord,
     SampledChannel,
     TraceProblem,
     TraceState,
     TriggerState,
 )
+from tappet.server.traces.shown import Shown
 from tappet.server.traces.store import RecordingStore, StoredRecording
 from tappet.traces.recording import RecordInfo
-from tappet.traces.samples import ChannelInfo
 
 if TYPE_CHECKING:
     from tappet.runtime.trace_compiler import TraceTask
+    from tappet.server.traces.mirror import Mirrors, RecordMirror, TraceMirror
 
 
 class Traces:
     """What the server knows of traces."""
 
-    def __init__(self, folder: Path, quota_bytes: int) -> None:
-        self.mirrors = Mirrors()
-        self.store = RecordingStore(folder, quota_bytes)
+    def __init__(self, folder: Path, quota_bytes: int, database: Database) -> None:
+        self.store = RecordingStore(folder, quota_bytes, RecordingIndex(database))
         self.recordings = LongRecordings(self.store)
+
+    @cached_property
+    def mirrors(self) -> Mirrors:
+        """Of the running traces; loaded, with numpy, when somebody looks at one."""
+        from tappet.server.traces.mirror import Mirrors
+
+        return Mirrors()
 
     async def close(self) -> None:
         """End what is being recorded."""
@@ -75,10 +80,16 @@ class Traces:
             recording = self.store.create(records=record_infos(status), ended_at=datetime.now(UTC), **fields)
             for number, record in enumerate(records):
                 recording.append(number, record.picture())
-            recording.flush()
+            self.store.flush(recording)
             return recording
 
         return await asyncio.to_thread(work)
+
+
+async def running_traces(link: RuntimeLink) -> list[TraceStatus]:
+    """All traces of a runtime; none without application."""
+    async with link.client() as client:
+        return await client.call(ListTraces())
 
 
 def compiled(link: RuntimeLink, name: str, data: TraceData, tasks: list[TraceTask], author: str) -> TraceSpec:
@@ -125,10 +136,6 @@ async def settings_of(link: RuntimeLink, name: str) -> TraceData:
         raise Problem(409, "trace-unreadable", text) from error
 
 
-def _channels(channels: list[ChannelInfo]) -> list[SampledChannel]:
-    return [SampledChannel(index=c.index, name=c.name, type=c.type) for c in channels]
-
-
 def _running(record: TraceRecordStatus, lost: int) -> RunningRecord:
     waits = record.state in ("waiting", "triggered", "done")
     percent = 0
@@ -151,41 +158,12 @@ def _running(record: TraceRecordStatus, lost: int) -> RunningRecord:
 
 def recording_info(recording: StoredRecording) -> RecordingInfo:
     """A recording for clients."""
-    return RecordingInfo(**_facts(recording))
+    return RecordingInfo(**recording.row())
 
 
 def recording_with_settings(recording: StoredRecording) -> Recording:
     """A recording with the settings of its trace."""
-    return Recording(**_facts(recording), data=TraceData.model_validate(recording.meta.settings))
-
-
-def _facts(recording: StoredRecording) -> dict[str, Any]:
-    meta = recording.meta
-    facts = {
-        name: value for name, value in structs.asdict(meta).items() if name not in ("settings", "records")
-    }
-    return {**facts, "bytes": recording.bytes, "records": _recorded(recording)}
-
-
-def _recorded(recording: StoredRecording) -> list[RecordingRecord]:
-    found = []
-    with recording.lock:
-        for info, samples in zip(recording.meta.records, recording.records, strict=True):
-            count = samples.count
-            ends = [str(int(samples.times(n, n + 1)[0])) if count else None for n in (0, max(0, count - 1))]
-            found.append(
-                RecordingRecord(
-                    name=info.name,
-                    task=info.task,
-                    interval_ns=info.interval_ns,
-                    samples=count,
-                    first_ns=ends[0],
-                    last_ns=ends[1],
-                    trigger_ns=None if info.trigger_ns is None else str(info.trigger_ns),
-                    channels=_channels(info.channels),
-                )
-            )
-    return found
+    return Recording(**recording.row(), data=TraceData.model_validate(recording.meta.settings))
 
 
 def shown_mirror(record: RecordMirror) -> Shown:
@@ -201,4 +179,5 @@ def shown_recording(recording: StoredRecording, record: int) -> Shown:
     """The samples of a stored record; raises a 404 problem."""
     if record >= len(recording.records):
         raise Problem(404, "not-found", f"The recording has no record number {record}.")
-    return Shown(recording.records[record], recording.meta.records[record], 0, recording.lock)
+    samples = recording.records[record]
+    return Shown(samples, recording.meta.records[record], samples.dropped, recording.lock)

@@ -9,7 +9,7 @@ from pydantic import Field, StringConstraints
 
 from tappet.project.trace import TraceChannel, TraceData
 from tappet.server.shapes import Reply, Request
-from tappet.traces.windows import MOST_POINTS
+from tappet.traces.questions import MOST_POINTS
 
 TraceName = Annotated[str, Field(min_length=1, max_length=200)]
 Title = Annotated[str, StringConstraints(max_length=200, pattern=r"^[^\x00-\x1f\x7f]*$")]
@@ -127,6 +127,9 @@ class RecordingInfo(Reply):
     problem: str | None = Field(description="Why it ended early.")
     bytes: int
     lost: int
+    keep_bytes: int | None = Field(description="Where it takes more, its oldest samples are dropped.")
+    keep_seconds: int | None = Field(description="Older samples are dropped; counted from the newest one.")
+    dropped: int = Field(description="Samples that these limits have cost.")
     records: list[RecordingRecord]
 
 
@@ -167,7 +170,16 @@ class SnapshotOrder(Request):
 class RecordingOrder(SnapshotOrder):
     """A long-term recording to be begun."""
 
-    seconds: int | None = Field(default=None, ge=1, le=31_622_400)
+    seconds: int | None = Field(default=None, ge=1, le=31_622_400, description="It ends then by itself.")
+    keep_mib: int | None = Field(
+        default=None, ge=1, le=1 << 20, description="Where it takes more, its oldest samples are dropped."
+    )
+    keep_seconds: int | None = Field(
+        default=None,
+        ge=1,
+        le=31_622_400,
+        description="Older samples are dropped, counted from the newest.",
+    )
 
 
 class RecordingChange(Request):

@@ -1,8 +1,9 @@
 """Recordings on disk: a folder each, with `recording.json` and the samples of its records.
 
-A folder holds all that is known of its recording, so that it can be copied, backed up and deleted as one; the
-list of them is read once after the server has started. Together they take at most the quota of the
-installation.
+A folder holds all that is known of its recording, so that it can be copied, backed up and deleted as one.
+Lists come from the index in the database, which is brought up to date with the folders once after the server
+has started. Together recordings take at most the quota of the installation; a recording that goes on may have
+a limit of its own, by which it drops its oldest samples.
 """
 
 from __future__ import annotations
@@ -13,16 +14,18 @@ import uuid
 from collections import OrderedDict
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import msgspec
-from msgspec import Struct
+from msgspec import Struct, structs
 from msgspec.structs import replace
 
 from tappet.server.problems import Problem, not_found
-from tappet.traces.chunks import StoredSamples
+from tappet.server.traces.index import RecordingIndex, Wanted
 from tappet.traces.recording import RecordInfo
-from tappet.traces.samples import Batch
+
+if TYPE_CHECKING:
+    from tappet.traces.samples import Batch
 
 _OPEN = 16
 """Recordings whose topmost level stays in memory."""
@@ -41,6 +44,10 @@ class RecordingOrigin(Struct, frozen=True, kw_only=True):
     project_id: str | None
     started_by: str
     settings: dict[str, Any]
+    keep_bytes: int | None = None
+    """Of a long-term recording: where it takes more, its oldest samples are dropped."""
+    keep_seconds: int | None = None
+    """The same by age, counted from its newest sample."""
 
 
 class RecordingMeta(RecordingOrigin, frozen=True, kw_only=True):
@@ -55,10 +62,17 @@ class RecordingMeta(RecordingOrigin, frozen=True, kw_only=True):
     lost: int = 0
 
 
+def _text(ns: int | None) -> str | None:
+    """A time for JSON, whose numbers are too small for it."""
+    return None if ns is None else str(ns)
+
+
 class StoredRecording:
     """A recording that is open."""
 
     def __init__(self, folder: Path, meta: RecordingMeta) -> None:
+        from tappet.traces.chunks import StoredSamples
+
         self._folder = folder
         self.meta = meta
         self.lock = threading.Lock()
@@ -69,6 +83,56 @@ class StoredRecording:
     def bytes(self) -> int:
         """On disk."""
         return sum(record.bytes for record in self.records)
+
+    @property
+    def dropped(self) -> int:
+        """Samples that its limits have cost."""
+        return max((record.dropped for record in self.records), default=0)
+
+    def trim(self) -> None:
+        """Drop the oldest samples that are beyond the limits."""
+        keep_bytes, keep_seconds = self.meta.keep_bytes, self.meta.keep_seconds
+        with self.lock:
+            if keep_seconds is not None:
+                for record in self.records:
+                    record.drop(record.chunks_before((record.last_ns or 0) - keep_seconds * 1_000_000_000))
+            over = 0 if keep_bytes is None else self.bytes - keep_bytes
+            while over > 0:
+                oldest = min(self.records, key=lambda record: record.first_ns or 0)
+                before = oldest.dropped
+                oldest.drop(1)
+                if oldest.dropped == before:
+                    return
+                over -= oldest.bytes_per_chunk
+
+    def row(self) -> dict[str, Any]:
+        """What the index keeps of it."""
+        known = structs.asdict(self.meta)
+        del known["settings"], known["records"]
+        with self.lock:
+            pairs = list(zip(self.meta.records, self.records, strict=True))
+            records = [
+                {
+                    "name": info.name,
+                    "task": info.task,
+                    "interval_ns": info.interval_ns,
+                    "samples": samples.count,
+                    "first_ns": _text(samples.first_ns),
+                    "last_ns": _text(samples.last_ns),
+                    "trigger_ns": _text(info.trigger_ns),
+                    "channels": [{"index": c.index, "name": c.name, "type": c.type} for c in info.channels],
+                }
+                for info, samples in pairs
+            ]
+            firsts = [samples.first_ns for _, samples in pairs if samples.first_ns is not None]
+            lasts = [samples.last_ns for _, samples in pairs if samples.last_ns is not None]
+            return known | {
+                "records": records,
+                "bytes": self.bytes,
+                "dropped": self.dropped,
+                "first_ns": min(firsts, default=None),
+                "last_ns": max(lasts, default=None),
+            }
 
     def append(self, record: int, batch: Batch) -> None:
         """Keep more samples."""
@@ -92,51 +156,63 @@ class StoredRecording:
 class RecordingStore:
     """All recordings of the server. Its methods block; any thread may call them."""
 
-    def __init__(self, folder: Path, quota_bytes: int) -> None:
+    def __init__(self, folder: Path, quota_bytes: int, index: RecordingIndex) -> None:
         self._folder = folder
         self.quota_bytes = quota_bytes
+        self._index = index
         self._lock = threading.RLock()
-        self._known: dict[str, RecordingMeta] | None = None
+        self._compared = False
         self._open: OrderedDict[str, StoredRecording] = OrderedDict()
 
-    def _metas(self) -> dict[str, RecordingMeta]:
-        if self._known is None:
-            self._known = {}
-            for path in sorted(self._folder.glob("*/recording.json")):
-                try:
-                    meta = msgspec.json.decode(path.read_bytes(), type=RecordingMeta)
-                except (OSError, msgspec.MsgspecError):
-                    continue  # of a newer version, or damaged: it is left alone
-                self._known[meta.id] = meta
-                if meta.state == "recording":  # the server ended before it did
-                    self.get(meta.id).change(state="interrupted", problem="The server was ended.")
-                    self._known[meta.id] = self._open[meta.id].meta
-        return self._known
+    def _compare(self) -> None:
+        """Bring the index up to date with the folders, once: they may have been restored or removed."""
+        if self._compared:
+            return
+        self._compared = True
+        indexed = self._index.states()
+        folders = {path.parent.name for path in self._folder.glob("*/recording.json")}
+        self._index.remove(*(indexed.keys() - folders))
+        unfinished = {one for one, state in indexed.items() if state == "recording"}
+        for recording_id in sorted(folders - (indexed.keys() - unfinished)):
+            try:
+                recording = self._opened(recording_id)
+            except Problem:
+                continue  # of a newer version, or damaged: it is left alone
+            if recording.meta.state == "recording":  # the server ended before it did
+                recording.change(state="interrupted", problem="The server was ended.")
+            self._index.put(recording.row())
 
-    def all(self) -> list[StoredRecording]:
-        """Newest first."""
+    def found(self, wanted: Wanted) -> list[dict[str, Any]]:
+        """Rows of the index, newest first."""
         with self._lock:
-            metas = sorted(self._metas().values(), key=lambda m: m.started_at, reverse=True)
-            return [self.get(meta.id) for meta in metas]
+            self._compare()
+        return self._index.found(wanted)
 
     def get(self, recording_id: str) -> StoredRecording:
         """One of them; raises a 404 problem."""
         with self._lock:
-            meta = self._metas().get(recording_id)
-            if meta is None:
-                raise not_found("recording", recording_id)
-            if recording_id not in self._open:
-                self._open[recording_id] = StoredRecording(self._folder / recording_id, meta)
-            self._open.move_to_end(recording_id)
-            for old in list(self._open)[:-_OPEN]:
-                if self._open[old].meta.state != "recording":
-                    del self._open[old]
-            return self._open[recording_id]
+            self._compare()
+            return self._opened(recording_id)
+
+    def _opened(self, recording_id: str) -> StoredRecording:
+        if recording_id not in self._open:
+            folder = self._folder / recording_id
+            try:
+                meta = msgspec.json.decode((folder / "recording.json").read_bytes(), type=RecordingMeta)
+            except (OSError, msgspec.MsgspecError) as error:
+                raise not_found("recording", recording_id) from error
+            self._open[recording_id] = StoredRecording(folder, meta)
+        self._open.move_to_end(recording_id)
+        for old in list(self._open)[:-_OPEN]:
+            if self._open[old].meta.state != "recording":
+                del self._open[old]
+        return self._open[recording_id]
 
     def used(self) -> int:
         """Bytes of all of them."""
         with self._lock:
-            return sum(self.get(recording_id).bytes for recording_id in list(self._metas()))
+            self._compare()
+        return self._index.used()
 
     def check_room(self) -> None:
         """Raises a 507 problem when the quota is used up."""
@@ -155,18 +231,24 @@ class RecordingStore:
             meta = RecordingMeta(id=uuid.uuid4().hex, started_at=datetime.now(UTC), **fields)
             folder = self._folder / meta.id
             folder.mkdir(parents=True, mode=0o700)
-            self._metas()[meta.id] = meta
             recording = StoredRecording(folder, meta)
             recording.change()
             self._open[meta.id] = recording
+            self._index.put(recording.row())
             return recording
+
+    def flush(self, recording: StoredRecording) -> None:
+        """Bring what is in memory to disk, drop what is beyond its limits, and tell the index."""
+        recording.flush()
+        recording.trim()
+        self._index.put(recording.row())
 
     def change(self, recording_id: str, **fields: Any) -> StoredRecording:
         """Other facts of a recording."""
         with self._lock:
             recording = self.get(recording_id)
             recording.change(**fields)
-            self._metas()[recording_id] = recording.meta
+            self._index.put(recording.row())
             return recording
 
     def delete(self, recording_id: str) -> RecordingMeta:
@@ -175,7 +257,7 @@ class RecordingStore:
             recording = self.get(recording_id)
             if recording.meta.state == "recording":
                 raise Problem(409, "still-recording", "The recording is still being made; end it first.")
-            del self._metas()[recording_id]
             self._open.pop(recording_id, None)
             shutil.rmtree(self._folder / recording_id)
+            self._index.remove(recording_id)
             return recording.meta

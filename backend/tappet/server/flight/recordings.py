@@ -19,14 +19,14 @@ from tappet.runtime.replay_process import COMMAND, LIMIT_S, ReplayOrder, ReplayR
 from tappet.server.builds.builder import Application, Built
 from tappet.server.builds.commissioning import Commissioning
 from tappet.server.builds.shapes import Relation
-from tappet.server.problems import Problem, not_found
-from tappet.server.recordings.recorded_plc import RecordedApplication, RecordedPlc
-from tappet.server.recordings.shapes import (
+from tappet.server.flight.recorded_plc import RecordedApplication, RecordedPlc
+from tappet.server.flight.recording_shapes import (
     DifferentValue,
     OpenedRecording,
     RecordingFacts,
     ReplayReport,
 )
+from tappet.server.problems import Problem, not_found
 from tappet.server.runtimes.links import RuntimeRegistry
 
 

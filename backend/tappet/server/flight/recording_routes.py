@@ -11,18 +11,18 @@ from starlette.responses import Response
 from tappet.runtime.flight_recording import MAX_FILE
 from tappet.runtime.operations.flight import SaveFlight
 from tappet.server.dependencies import CommissioningDep, Engineer, LinkDep, RuntimesDep, StoreDep, Viewer
-from tappet.server.objects.replies import object_detail
-from tappet.server.objects.shapes import ObjectDetail
-from tappet.server.problems import Problem
-from tappet.server.projects.routes import download
-from tappet.server.recordings import service
-from tappet.server.recordings.shapes import (
+from tappet.server.flight import recordings
+from tappet.server.flight.recording_shapes import (
     NewRecording,
     OpenedRecording,
     RecordingFacts,
     ReplayReport,
     ReplayRequest,
 )
+from tappet.server.objects.replies import object_detail
+from tappet.server.objects.shapes import ObjectDetail
+from tappet.server.problems import Problem
+from tappet.server.projects.routes import download
 from tappet.server.routing import Router
 from tappet.server.spoken import LanguageDep, in_language
 
@@ -72,7 +72,7 @@ async def _kept(
     store: StoreDep, project_id: str, application_id: str, name: str, text: str, username: str
 ) -> ObjectDetail:
     def keep() -> ObjectDetail:
-        object_id = service.add(store, project_id, application_id, name, text, username)
+        object_id = recordings.add(store, project_id, application_id, name, text, username)
         return object_detail(store.get(project_id, object_id))
 
     return await run_in_threadpool(keep)
@@ -89,14 +89,14 @@ async def download_flight(who: Engineer, link: LinkDep) -> Response:
 @router.get("/projects/{project_id}/recordings/{object_id}")
 def read_recording(project_id: str, object_id: str, who: Viewer, store: StoreDep) -> RecordingFacts:
     """What a recording holds."""
-    return service.facts(service.text_of(store, project_id, object_id))
+    return recordings.facts(recordings.text_of(store, project_id, object_id))
 
 
 @router.get("/projects/{project_id}/recordings/{object_id}/file", response_class=Response, responses=_FILE)
 def download_recording(project_id: str, object_id: str, who: Viewer, store: StoreDep) -> Response:
     """A recording as a `.flight` file."""
     item = store.get(project_id, object_id)
-    text = service.text_of(store, project_id, object_id)
+    text = recordings.text_of(store, project_id, object_id)
     return download(text.encode(), f"{item.name}.flight", "text/plain")
 
 
@@ -110,7 +110,7 @@ async def open_recording(
     commissioning: CommissioningDep,
 ) -> OpenedRecording:
     """Make a recording a runtime whose values can be looked at, in every cycle that it holds."""
-    return await service.open_recording(store, runtimes, commissioning, project_id, object_id)
+    return await recordings.open_recording(store, runtimes, commissioning, project_id, object_id)
 
 
 @router.post("/projects/{project_id}/recordings/{object_id}/replay")
@@ -124,5 +124,5 @@ async def replay_recording(
     language: LanguageDep,
 ) -> ReplayReport:
     """Run a recording again on virtual time, with the inputs, writes and forces that it had."""
-    report = await service.replay(store, commissioning, project_id, object_id, today=body.today)
+    report = await recordings.replay(store, commissioning, project_id, object_id, today=body.today)
     return in_language(report, language)
