@@ -6,10 +6,18 @@ from collections.abc import Iterator
 
 import pytest
 from debugger_model import Program
-from debugger_programs import URI, add, build_both, halted, loaded, until, value
+from debugger_programs import URI, add, build_both, halted, loaded, spot, until, value
+from plc_programs import MAIN
 from test_debugger_steps import seeds
 
-from tappet.runtime.errors import PlcError
+from tappet.codegen.build import BuildOptions, BuildSession, build_application
+from tappet.codegen.debug_build import instrument
+from tappet.iec.task import Task
+from tappet.lang.source import BodyText, Source
+from tappet.runtime.debugger import flow_control
+from tappet.runtime.debugger.flow_control import LEASE_S, FlowControl
+from tappet.runtime.debugger.shapes import BreakpointOrder
+from tappet.runtime.errors import DebugError, PlcError
 from tappet.runtime.plc import SoftPlc
 
 TEXT = """FUNCTION Half : DINT
@@ -120,6 +128,91 @@ def test_it_goes_on_after_a_download(plc: SoftPlc) -> None:
     until(lambda: plc.debugger.flow(URI).cycle > 0 and 20 in shown(plc))
 
 
+COUNTS = "PROGRAM PLC_PRG\nVAR\n    i : DINT;\nEND_VAR\ni := i + 1;\nEND_PROGRAM"
+SLOW = """PROGRAM Slow
+VAR
+    n : DINT;
+    b : BOOL;
+END_VAR
+IF n < 100
+    AND NOT b THEN
+    n := n + 1;
+ELSIF b THEN
+    n := 0;
+END_IF
+CASE n OF
+    1: b := FALSE;
+    2: b := b;
+END_CASE
+END_PROGRAM
+"""
+TASKS = [
+    Task("Fast", interval_ns=1_000_000, programs=("PLC_PRG",)),
+    Task("Slow", interval_ns=2_000_000, priority=2, programs=("Slow",)),
+]
+
+
+@pytest.fixture
+def two_tasks() -> Iterator[SoftPlc]:
+    plc = SoftPlc(None)
+    package, variant = build_both(COUNTS, TASKS, gvls={"Slow": SLOW})
+    plc.load(package)
+    plc.debugger.load(variant)
+    yield plc
+    plc.close()
+
+
+def test_each_task_is_recorded(two_tasks: SoftPlc) -> None:
+    plc = two_tasks
+    plc.debugger.set_flow([URI, "Slow"])
+    plc.start()
+    until(lambda: bool(plc.debugger.flow(URI).statements) and bool(plc.debugger.flow("Slow").statements))
+    plc.debugger.add(BreakpointOrder(place=spot(8, "Slow")))
+    assert [halt.task for halt in halted(plc).halted] == ["Slow"]
+    before = plc.debugger.flow(URI).cycle
+    until(lambda: plc.debugger.flow(URI).cycle > before)
+
+
+def test_of_a_statement_with_others_inside_the_head_counts(two_tasks: SoftPlc) -> None:
+    two_tasks.debugger.set_flow(["Slow"])
+    two_tasks.start()
+
+    def ends() -> dict[int, int]:
+        return {s.line: s.end_line for s in two_tasks.debugger.flow("Slow").statements}
+
+    until(lambda: 8 in ends())
+    assert {line: ends()[line] for line in (6, 12)} == {6: 7, 12: 12}
+
+
+def test_what_several_clients_want_is_recorded_until_they_are_gone() -> None:
+    now = 0.0
+    control = FlowControl(lambda: now)
+    control.hold("a", ["x", "y"])
+    control.hold("b", ["y", "z"])
+    control.hold("", ["w"])
+    assert control.objects == {"w", "x", "y", "z"}
+    now = LEASE_S - 1
+    with pytest.raises(DebugError):  # no code is loaded, but it was heard
+        control.snapshot("z", "b")
+    assert not control.expired()
+    now = LEASE_S + 1
+    assert control.expired()
+    assert control.objects == {"w", "y", "z"}, "b has read; who has no name need not"
+    control.hold("b", [])
+    assert control.objects == {"w"}
+
+
+def test_normal_code_runs_again_when_a_client_is_gone(plc: SoftPlc, monkeypatch: pytest.MonkeyPatch) -> None:
+    plc.debugger.set_flow([URI], "browser")
+    plc.start()
+    until(lambda: plc.debugger.flow(URI, "browser").cycle > 0)
+    assert plc.debugger.state().active
+    monkeypatch.setattr(flow_control, "LEASE_S", 0.0)
+    until(lambda: not plc.debugger.state().active)
+    with pytest.raises(PlcError, match="not under flow control"):
+        plc.debugger.flow(URI, "browser")
+
+
 @pytest.mark.parametrize("seed", seeds(40, 5))
 def test_random_programs(seed: int) -> None:
     program = Program(seed)
@@ -140,5 +233,44 @@ def test_random_programs(seed: int) -> None:
             for events in cycles[:ran]
         ]
         assert found in expected[-4:], program.text
+    finally:
+        plc.close()
+
+
+INSTRUCTIONS = """PROGRAM PLC_PRG
+VAR
+    xAlways : BOOL := TRUE;
+    nCount : INT;
+    nIdle : INT;
+END_VAR
+        LD      xAlways
+        JMPC    onward
+        LD      nIdle
+        ST      nIdle
+onward: LD      nCount
+        ADD     1
+        ST      nCount
+END_PROGRAM
+"""
+
+
+def test_rows_of_instruction_list() -> None:
+    """The rows that make a value belong to the one that takes it."""
+    session = BuildSession()
+    source = Source(URI, INSTRUCTIONS, bodies=(BodyText(0, "IL"),))
+    package = build_application([source], list(MAIN), BuildOptions(application="App"), None, session).package
+    assert package is not None
+    assert session.generated is not None
+    plc = SoftPlc(None)
+    try:
+        plc.load(package)
+        plc.debugger.load(instrument(session.generated).to_bytes())
+        plc.debugger.set_flow([URI])
+        plc.start()
+        until(lambda: 11 in shown(plc) and plc.debugger.flow(URI).cycle > 1)
+        assert {s.line: s.end_line for s in plc.debugger.flow(URI).statements} == {7: 8, 11: 13}
+        assert shown(plc)[7][1] == {"xAlways": "TRUE"}
+        (row,) = {add(plc, line).actual.line for line in (11, 12, 13)}
+        assert row == 11
     finally:
         plc.close()

@@ -11,7 +11,7 @@ from tappet.codegen.emit_function import FunctionEmitter
 from tappet.codegen.emit_module import EmitOptions, emit_module
 from tappet.codegen.emit_place import ModuleState
 from tappet.codegen.generate import Generated
-from tappet.codegen.instrumented import FrameLayout, InstrumentedEmitter
+from tappet.codegen.instrumented import FrameLayout, InstrumentedEmitter, StatementHead
 from tappet.codegen.object_cache import ObjectCache
 from tappet.codegen.symbols_build import TypeTable
 from tappet.core import ir
@@ -19,7 +19,7 @@ from tappet.core.program import Program, path_of
 from tappet.lang import ast
 from tappet.lang.source import Scope
 from tappet.lang.symbols import PouSymbol, VarSymbol
-from tappet.lang.walk import own_expressions, statements
+from tappet.lang.walk import bodies, own_expressions, statements
 
 MOST_NAMES = 8
 """Variables of a statement whose values flow control keeps; FLOW_RESULT has room for so many."""
@@ -76,8 +76,8 @@ class _Instrumentation:
             return FunctionEmitter(state, function)
         layout = FrameLayout()
         variables = tuple(self._variables(function, layout))
-        names = _names(self.program.bodies[function.name])
-        emitter = InstrumentedEmitter(state, function, layout, names)
+        heads = _heads(self.program.bodies[function.name])
+        emitter = InstrumentedEmitter(state, function, layout, heads)
         self.emitted.append((function, emitter, variables))
         return emitter
 
@@ -134,16 +134,22 @@ def _declared(pou: PouSymbol) -> list[VarSymbol]:
     return list({id(v): v for v in found}.values())
 
 
-def _names(pou: PouSymbol) -> dict[tuple[int, int], tuple[str, ...]]:
-    """The variables that each statement names, as its text does; some may have no single value."""
+def _heads(pou: PouSymbol) -> dict[tuple[int, int], StatementHead]:
+    """Of each statement, by its place: the variables that it names, as its text does; some may have no single
+    value."""
     assert pou.pou is not None
     assert pou.source is not None
     lines = pou.source.text.split("\n")
-    found = {}
+    found: dict[tuple[int, int], StatementHead] = {}
     for statement in statements(pou.pou.body):
+        place = statement.span.line + 1, statement.span.column
+        if place in found:
+            continue  # what one place stands for, as the jump of a JMPC
         named: dict[str, str] = {}
         parts: set[int] = set()
+        first = statement.span.line
         for e in own_expressions(statement):
+            first = min(first, e.span.line)
             if isinstance(e, ast.Index | ast.Member | ast.Deref):
                 parts.add(id(e.base))
             if id(e) in parts or e.is_constant or not isinstance(e, _NAMED):
@@ -153,8 +159,27 @@ def _names(pou: PouSymbol) -> dict[tuple[int, int], tuple[str, ...]]:
                 text = lines[span.line][span.column : span.end_column].strip()
                 if text:
                     named.setdefault(text.upper(), text)
-        found[statement.span.line + 1, statement.span.column] = tuple(named.values())[:MOST_NAMES]
+        head = first + 1, _head_line(statement)
+        found[place] = StatementHead(head, tuple(named.values())[:MOST_NAMES])
     return found
+
+
+def _head_line(statement: ast.Stmt) -> int:
+    """The last line, from 1, of what is executed before the statements inside one."""
+    match statement:
+        case ast.If():
+            last = statement.branches[0][0].span.end_line
+        case ast.Case():
+            last = statement.selector.span.end_line
+        case ast.For():
+            last = (statement.step or statement.stop).span.end_line
+        case ast.While():
+            last = statement.condition.span.end_line
+        case _ if bodies(statement):
+            last = statement.span.line
+        case _:
+            last = statement.span.end_line
+    return max(last, statement.span.line) + 1
 
 
 _NAMED = (ast.Name, ast.Member, ast.Index, ast.Deref)

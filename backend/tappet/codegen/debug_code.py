@@ -44,6 +44,9 @@ class StatementSite(Struct, frozen=True, array_like=True):
     """The loops around it, the outermost first; only these can be entered by going to it from elsewhere."""
     names: tuple[str, ...] = ()
     """Variables in the statement, as they are written there."""
+    head: tuple[int, int] = (0, 0)
+    """Its lines without those of statements inside it, as `IF condition THEN`: the first and the last one. In
+    IL they begin with the rows whose value the statement takes."""
 
 
 class FrameVariable(Struct, frozen=True, array_like=True):

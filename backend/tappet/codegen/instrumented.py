@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from tappet.codegen import debug_code
 from tappet.codegen.debug_code import HEADER, StatementSite
@@ -28,8 +28,17 @@ _POINTED = 1 << 61
 """The extent that an index behind a pointer is taken to have is larger than this."""
 
 
-Names = Mapping[tuple[int, int], tuple[str, ...]]
-"""What is named in a statement, by its line and column."""
+class StatementHead(NamedTuple):
+    """What the text of a statement says of what is executed before any statement inside it."""
+
+    lines: tuple[int, int]
+    """The first and the last one."""
+    names: tuple[str, ...]
+    """Variables in it."""
+
+
+Heads = Mapping[tuple[int, int], StatementHead]
+"""By line and column of the statement."""
 
 
 @dataclass(eq=False, slots=True)
@@ -66,11 +75,11 @@ class InstrumentedEmitter(FunctionEmitter):
     relies_on_proofs = False
 
     def __init__(
-        self, state: ModuleState, function: ir.Function, layout: FrameLayout, names: Names | None = None
+        self, state: ModuleState, function: ir.Function, layout: FrameLayout, heads: Heads | None = None
     ) -> None:
         super().__init__(state, function)
         self.layout = layout
-        self.names = names or {}
+        self._heads = heads or {}
         self._halts: set[tuple[int, int]] = set()
         self._exit: int | None = None
         self.sites: list[StatementSite] = []
@@ -131,16 +140,10 @@ class InstrumentedEmitter(FunctionEmitter):
         place = (s.line, s.column)
         if s.statement and place not in self._halts:  # of what one place stands for, only the first one halts
             self._halts.add(place)
-            self._hook(
-                StatementSite(
-                    s.line,
-                    s.end_line or s.line,
-                    s.column,
-                    "statement",
-                    tuple(self._around),
-                    self.names.get((s.line, s.column), ()),
-                )
-            )
+            end = s.end_line or s.line
+            head = self._heads.get(place, StatementHead((s.line, end), ()))
+            around = tuple(self._around)
+            self._hook(StatementSite(s.line, end, s.column, "statement", around, head.names, head.lines))
 
     def _hook(self, site: StatementSite) -> None:
         number = len(self.sites)

@@ -6189,6 +6189,7 @@ export interface components {
             /** @description How often, in this cycle. */
             count: number;
             element: string | null;
+            /** @description Of one with statements inside: of its head. */
             end_line: number;
             line: number;
             part: string | null;
@@ -10098,6 +10099,11 @@ export interface components {
          * @description Record which statements of these objects a cycle executes; an empty list ends that.
          */
         SetFlow: {
+            /**
+             * @description Who wants it; a named one must read every few seconds to keep it.
+             * @default
+             */
+            holder?: string;
             object_ids: string[];
         };
         /**
@@ -18152,6 +18158,7 @@ export interface operations {
         parameters: {
             query: {
                 object_id: string;
+                holder?: string;
             };
             header?: never;
             path: {

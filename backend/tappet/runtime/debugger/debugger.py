@@ -16,6 +16,7 @@ from tappet.codegen.values import Value
 from tappet.runtime.contexts import RUNNING, STOPPED
 from tappet.runtime.debugger import frames, log_points
 from tappet.runtime.debugger.breakpoints import MOST, BreakpointTable, Wanted
+from tappet.runtime.debugger.flow_control import FlowControl
 from tappet.runtime.debugger.places import code_spot, line_of
 from tappet.runtime.debugger.shapes import (
     Breakpoint,
@@ -37,7 +38,6 @@ from tappet.runtime.errors import DebugError, UnknownBreakpointError
 from tappet.runtime.link import LinkError
 
 if TYPE_CHECKING:
-    from tappet.runtime.debugger.flow import Flow
     from tappet.runtime.plc import SoftPlc
 
 _REASONS: dict[int, Reason] = {1: "breakpoint", 2: "step", 3: "pause", 4: "data", 5: "run_to"}
@@ -59,9 +59,7 @@ class Debugger:
         self._sequence = 0
         self._halts = 0
         self._kept = False
-        self._watched: frozenset[str] = frozenset()
-        """Objects under flow control."""
-        self._flow: Flow | None = None
+        self._flow = FlowControl()
 
     # -- state ---------------------------------------------------------------------------------------
 
@@ -128,6 +126,9 @@ class Debugger:
         with self._lock:
             variant = self.variant
             halts = variant.context["halts"] if variant is not None else 0
+            if self._flow.expired() and variant is not None:
+                self._flow.place(variant)
+                self._direct()
             if variant is not None:
                 log_points.collect(variant, self._wanted, self._plc.log)
             idle = variant is not None and variant.active and not self._needs(variant)
@@ -164,13 +165,14 @@ class Debugger:
                 self._halts = 0
                 for wanted in self._wanted.values():
                     wanted.place(variant)
-                self._place_flow()
+                self._flow.place(variant)
                 self._changed()
             return self.state()
 
     def dropped(self) -> None:
         """The application has become another one: nothing is placed any more."""
-        self._halts, self._flow = 0, None
+        self._halts = 0
+        self._flow.dropped()
         for wanted in list(self._wanted.values()):
             wanted.sites, wanted.watched = [], None
             wanted.reason = "the instrumented variant of the application is not loaded"
@@ -182,7 +184,7 @@ class Debugger:
 
     def _needs(self, variant: Variant) -> bool:
         """Whether tasks have to run the variant."""
-        asked = self._kept or bool(self._watched) or variant.any_halted or variant.any_wanted
+        asked = self._kept or bool(self._flow.objects) or variant.any_halted or variant.any_wanted
         return asked or any(w.active for w in self._wanted.values())
 
     def keep_active(self, wanted: bool) -> None:
@@ -202,7 +204,7 @@ class Debugger:
         variant.context["haltOthers"] = int(self._settings.other_tasks == "halt")
         variant.context["safeOutputs"] = int(self._settings.outputs == "safe")
         needed = self._needs(variant)
-        variant.arm(table.sites, table.watches, self._flow.armed if self._flow is not None else ())
+        variant.arm(table.sites, table.watches, self._flow.armed)
         if needed and not variant.active:
             variant.activate()
         elif not needed and variant.active:
@@ -403,32 +405,20 @@ class Debugger:
 
     # -- flow control --------------------------------------------------------------------------------
 
-    def set_flow(self, objects: list[str]) -> None:
-        """Record which statements of these objects each cycle executes; of none with an empty list."""
+    def set_flow(self, objects: list[str], holder: str = "") -> None:
+        """Record which statements of these objects each cycle executes; of none with an empty list. A named
+        holder keeps that by reading."""
         with self._lock:
-            self._need()
-            self._watched = frozenset(objects)
-            self._place_flow()
+            variant = self._need() if objects else self.variant
+            self._flow.hold(holder, objects)
+            if variant is not None:
+                self._flow.place(variant)
             self._changed()
 
-    def _place_flow(self) -> None:
-        variant = self.variant
-        self._flow = None
-        if variant is None:
-            return
-        if self._watched:
-            from tappet.runtime.debugger.flow import Flow  # the parser, which few runtimes need
-
-            self._flow = Flow(variant, self._watched)
-        address = self._flow.table.address if self._flow is not None else 0
-        variant.application.tasks.publish(variant.context.place("pFlow"), address, self._flow)
-
-    def flow(self, object_id: str) -> FlowSnapshot:
+    def flow(self, object_id: str, holder: str = "") -> FlowSnapshot:
         """What a cycle has executed of an object under flow control."""
         with self._lock:
-            if self._flow is None or object_id not in self._watched:
-                raise DebugError("the object is not under flow control")
-            return self._flow.snapshot(object_id)
+            return self._flow.snapshot(object_id, holder)
 
     # -- stacks --------------------------------------------------------------------------------------
 

@@ -160,7 +160,7 @@ class FlowStatement(Struct, frozen=True):
     """A statement that was executed."""
 
     line: int
-    end_line: int
+    end_line: Annotated[int, Meta(description="Of one with statements inside: of its head.")]
     element: str | None
     part: str | None
     count: Annotated[int, Meta(description="How often, in this cycle.")]

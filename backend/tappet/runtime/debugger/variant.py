@@ -170,12 +170,15 @@ class Variant:
 
 
 def _next_site(sites: tuple[StatementSite, ...], line: int) -> int | None:
-    """Index of the first statement that begins at a line or behind it, in a body that shows the line; of the
-    one around the line where none follows."""
+    """Index of the statement that begins at a line or has it in its head, else of the first one behind it, in
+    a body that shows the line; of the one around the line where none follows."""
     low, high = min(s.line for s in sites), max(s.end_line for s in sites)
     if line > high:
         return None
     possible = [(n, s) for n, s in enumerate(sites) if s.kind != "exit"]
+    heads = [(s.line, -n) for n, s in possible if s.line <= line <= s.head[1]]
+    if heads:
+        return -max(heads)[1]
     later = [(s.line, s.kind != "statement", n) for n, s in possible if s.line >= line]
     if later:
         return min(later)[2]

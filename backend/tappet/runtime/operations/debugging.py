@@ -36,6 +36,9 @@ if TYPE_CHECKING:
     from tappet.runtime.plc import SoftPlc
 
 TAG = "debugger"
+FlowHolder = Annotated[
+    str, Meta(max_length=100, description="Who wants it; a named one must read every few seconds to keep it.")
+]
 FrameNumber = Annotated[int, Meta(ge=0, le=1000, description="0 is the innermost level.")]
 
 
@@ -247,10 +250,11 @@ class SetFlow(Operation[None], frozen=True):
         variant=True,
     )
     object_ids: Annotated[list[Text], Meta(max_length=100)]
+    holder: FlowHolder = ""
 
     def run(self, plc: SoftPlc) -> None:
         """From the next cycle on."""
-        plc.debugger.set_flow(self.object_ids)
+        plc.debugger.set_flow(self.object_ids, self.holder)
 
 
 class GetFlow(Operation[FlowSnapshot], frozen=True):
@@ -259,7 +263,8 @@ class GetFlow(Operation[FlowSnapshot], frozen=True):
     op: ClassVar[str] = "debug_flow"
     rest: ClassVar[Rest | None] = Rest("GET", "/debug/flow", "viewer", None, tag=TAG)
     object_id: Text
+    holder: FlowHolder = ""
 
     def run(self, plc: SoftPlc) -> FlowSnapshot:
         """Of the last complete cycle, or of the present one while the task is halted."""
-        return plc.debugger.flow(self.object_id)
+        return plc.debugger.flow(self.object_id, self.holder)

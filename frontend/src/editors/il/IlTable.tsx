@@ -31,7 +31,7 @@ import { useRowDrag } from './useRowDrag';
 import { useIlActs, type IlEditing } from './useIlActs';
 import { usePrepare } from './usePrepare';
 import { useTableOfPanel } from './useTableOfPanel';
-import { RowValues, useRowValues } from './values';
+import { RowValues, useRowValues, withValue } from './values';
 
 export type IlTableProps = EditorProps & OpenText & { object: ObjectSummary; inText: (action: string) => void };
 
@@ -45,7 +45,7 @@ export function IlTable(props: IlTableProps) {
   const settings = ilSettings.use();
   const locked = useEditingLock(object, null);
   const monitored = useMonitored(props);
-  const { session, runtimeId, needsInstanceOf } = monitored;
+  const { session, runtimeId, needsInstanceOf, executed } = monitored;
   const isOnline = session !== null;
   const columns = useMemo(() => ilColumns(t, settings, isOnline), [t, settings, isOnline]);
   const selection = useGridSelection(rows.length);
@@ -140,7 +140,7 @@ export function IlTable(props: IlTableProps) {
       return column >= 1 && column < columns.length && used(() => selection.move({ ...cursor, column }, 'one'));
     }
     if ((event.key === ' ' || event.key === 'Enter') && !ctrl && cursor !== null) {
-      const value = columns[cursor.column]?.id === 'value' ? values.get(cursor.row)?.[0] : undefined;
+      const value = columns[cursor.column]?.id === 'value' ? withValue(values.get(cursor.row) ?? [])[0] : undefined;
       return used(() => (value === undefined ? acts.edit(cursor) : prepare.open(value, cursor.row)));
     }
     return false;
@@ -160,7 +160,8 @@ export function IlTable(props: IlTableProps) {
   const valueCell = (row: number) => {
     if (runtimeId === null || rows[row] === undefined) return null;
     if (needsInstanceOf !== null) return rows[row].operand && <span className={styles.muted}>???</span>;
-    const stale = monitored.settings?.running?.[rows[row].line - 1] === false;
+    const { line } = rows[row];
+    const stale = monitored.settings?.running?.[line - 1] === false;
     return (
       <RowValues
         values={values.get(row) ?? NO_VALUES}
@@ -168,6 +169,7 @@ export function IlTable(props: IlTableProps) {
         runtimeId={runtimeId}
         lost={monitored.settings?.lost ?? false}
         stale={stale}
+        executed={(name) => executed?.valueAt(line, name) ?? null}
         onPrepare={(value) => prepare.open(value, row)}
       />
     );
@@ -176,8 +178,14 @@ export function IlTable(props: IlTableProps) {
     const shown = rows[row];
     if (shown === undefined) return undefined;
     const wide = ['label', 'comment', 'raw'].includes(shown.kind) ? `wide ${shown.kind}` : '';
-    const excluded = shown.excluded ? 'excluded' : '';
-    return `${wide} ${excluded} ${shown.line === fault ? 'fault' : ''}`.trim() || undefined;
+    const passed = executed?.has(shown.line) === true && shown.kind !== 'comment' && shown.kind !== 'blank';
+    const marks = [
+      wide,
+      shown.excluded ? 'excluded' : '',
+      passed ? 'executed' : '',
+      shown.line === fault ? 'fault' : '',
+    ];
+    return marks.filter(Boolean).join(' ') || undefined;
   };
   const valueColumn = columns.findIndex(({ id }) => id === 'value');
 

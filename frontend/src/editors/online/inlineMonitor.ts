@@ -5,6 +5,7 @@
  * Monaco has drawn; only another width, or a prepared value, makes another decoration.
  */
 import type { editor, IDisposable } from 'monaco-editor/editor/editor.api';
+import type { LiveValue } from '@/online/board';
 import type { GroupHandle, OnlineChannel } from '@/online/channel';
 import type { NumberFormat } from '@/text/settings';
 import { FRESH_MS } from '@/online/freshMarks';
@@ -17,7 +18,7 @@ import type { Monaco } from '@/text/monacoLoader';
 import { expressionOf, indexExpressions, type MonitorScope, type VariableUse } from '@/iec/variables';
 import styles from './inlineMonitor.module.css';
 import { newPillName, PillElements } from './pillElements';
-import { pillOf, PillWidths } from './pills';
+import { executedText, pillOf, PillWidths, type Pill } from './pills';
 
 export interface MonitorSettings {
   readonly runtimeId: string;
@@ -28,6 +29,11 @@ export interface MonitorSettings {
   readonly running: readonly boolean[] | null;
 }
 
+/** What the statements of a body left in their variables, where flow control knows it. */
+export interface ExecutedValues {
+  valueAt: (line: number, name: string) => string | null;
+}
+
 /** Attached to the text of a pill, so that a click on it is known. */
 export interface PillTarget {
   readonly expression: string;
@@ -35,7 +41,10 @@ export interface PillTarget {
 
 interface ShownUse {
   readonly use: VariableUse;
-  readonly expression: string;
+  /** As it is written. */
+  readonly name: string;
+  /** Null where it has no value between two cycles. */
+  readonly expression: string | null;
   readonly line: number;
   readonly column: number;
 }
@@ -51,12 +60,13 @@ interface DrawnPill {
 
 /** Classes that a pill has by turns. */
 const LOOKS: ReadonlySet<string> = new Set(
-  ['true', 'false', 'fresh', 'forced', 'lost', 'stale'].map((look) => styles[look] ?? look),
+  ['true', 'false', 'fresh', 'forced', 'lost', 'stale', 'executed'].map((look) => styles[look] ?? look),
 );
 const AROUND_LINES = 20;
 const MOST_USES = 1500;
 
 export class InlineMonitor {
+  private text = '';
   private uses: readonly VariableUse[] = [];
   private shown: readonly ShownUse[] = [];
   private readonly widths = new PillWidths();
@@ -74,6 +84,7 @@ export class InlineMonitor {
   private lookedAt = { first: 0, last: 0 };
   /** Nothing is shown before the first settings. */
   private settings: MonitorSettings | null = null;
+  private executed: ExecutedValues | null = null;
   private visible = true;
 
   constructor(
@@ -103,6 +114,13 @@ export class InlineMonitor {
     this.look();
   }
 
+  /** Values of flow control take the place of those between two cycles. */
+  setExecuted(executed: ExecutedValues | null): void {
+    if (this.executed === executed) return;
+    this.executed = executed;
+    this.redraw();
+  }
+
   /** Whether the editor is in front of its group: no value is asked for in one that is not. */
   setVisible(visible: boolean): void {
     if (this.visible === visible) return;
@@ -115,7 +133,9 @@ export class InlineMonitor {
     const position = this.target.getPosition();
     const offset = position === null ? undefined : this.target.getModel()?.getOffsetAt(position);
     if (offset === undefined) return null;
-    return this.shown.find(({ use }) => use.start <= offset && offset <= use.end) ?? null;
+    for (const { use, expression } of this.shown)
+      if (expression !== null && use.start <= offset && offset <= use.end) return { expression };
+    return null;
   }
 
   dispose(): void {
@@ -135,7 +155,8 @@ export class InlineMonitor {
   /** The text has changed: find its variables again. */
   private read(): void {
     const model = this.target.getModel();
-    this.uses = model === null ? [] : this.findUses(model.getValue());
+    this.text = model?.getValue() ?? '';
+    this.uses = this.findUses(this.text);
     // Decorations have moved with the text: each is set where it belongs now.
     for (const [place, pill] of this.drawn) this.drawn.set(place, { ...pill, shape: '' });
     this.look();
@@ -182,9 +203,8 @@ export class InlineMonitor {
       }
       wanted.push(...indexExpressions(use.path, settings.scope, this.indexValue));
       const expression = expressionOf(use.path, settings.scope, this.indexValue);
-      if (expression === null) continue;
-      wanted.push(expression);
-      shown.push({ use, expression, line, column });
+      if (expression !== null) wanted.push(expression);
+      shown.push({ use, name: this.text.slice(use.start, use.end), expression, line, column });
       if (shown.length >= MOST_USES) break;
     }
     this.shown = shown;
@@ -218,38 +238,24 @@ export class InlineMonitor {
   };
 
   private draw(): void {
-    if (this.settings === null) return;
-    const { runtimeId, format, lost, running } = this.settings;
-    const prepared = usePrepared.getState().values[runtimeId] ?? {};
-    const forces = useOnline.getState().forcedPlaces[runtimeId];
+    const { settings } = this;
+    if (settings === null) return;
     const now = performance.now();
     let freshUntil = 0;
     const present = new Set<string>();
     const outdated: string[] = [];
     const changed: { place: string; pill: Omit<DrawnPill, 'id'>; decoration: editor.IModelDeltaDecoration }[] = [];
-    for (const { expression, line, column } of this.shown) {
-      const live = this.channel.board.get(expression);
-      if (live === null) continue;
-      const key = expressionKey(expression);
-      const pill = pillOf(
-        {
-          live,
-          forced: isForced(live.item, forces),
-          prepared: prepared[key]?.literal ?? null,
-          lost,
-          stale: running !== null && running[line - 1] === false,
-          now,
-          format,
-        },
-        this.widths.widthOf(key, live, format),
-      );
+    for (const use of this.shown) {
+      const { expression, line, column } = use;
+      const live = expression === null ? null : this.channel.board.get(expression);
+      const pill = this.pillOf(use, live, settings, now);
       if (pill === null) continue;
-      if (pill.classes.includes('fresh')) freshUntil = Math.max(freshUntil, live.changedAt + FRESH_MS);
+      if (pill.classes.includes('fresh')) freshUntil = Math.max(freshUntil, (live?.changedAt ?? 0) + FRESH_MS);
       const place = `${String(line)}.${String(column)}`;
       present.add(place);
       const classes = pill.classes.map((each) => styles[each] ?? each);
       const look = `${pill.text} ${classes.join(' ')}`;
-      const shape = `${expression} ${String(pill.text.length)} ${pill.prepared ?? ''}`;
+      const shape = `${expression ?? ''} ${String(pill.text.length)} ${pill.prepared ?? ''}`;
       const before = this.drawn.get(place);
       if (before?.shape === shape) {
         if (before.look === look) continue;
@@ -259,7 +265,8 @@ export class InlineMonitor {
       if (before !== undefined) this.outdate(before, outdated);
       const name = newPillName();
       this.elements.made(name, pill.text, classes);
-      const decoration = this.decoration({ expression }, { ...pill, classes: [...classes, name] }, line, column);
+      const target = expression === null ? null : { expression };
+      const decoration = this.decoration(target, { ...pill, classes: [...classes, name] }, line, column);
       changed.push({ place, pill: { name, shape, look }, decoration });
     }
     for (const [place, pill] of this.drawn) {
@@ -278,13 +285,35 @@ export class InlineMonitor {
     if (freshUntil > 0) this.fading = setTimeout(this.redraw, freshUntil - now + 20);
   }
 
+  private pillOf(use: ShownUse, live: LiveValue | null, settings: MonitorSettings, now: number): Pill | null {
+    const { runtimeId, format, lost, running } = settings;
+    const key = use.expression === null ? '' : expressionKey(use.expression);
+    const executed = this.executed?.valueAt(use.line, use.name) ?? null;
+    let width = 0;
+    if (executed !== null) {
+      const place = `executed ${format} ${String(use.line)}.${String(use.column)}`;
+      width = this.widths.widthOfExecuted(place, executedText(executed, live, format));
+    } else if (live !== null) width = this.widths.widthOf(key, live, format);
+    const state = {
+      live,
+      executed,
+      forced: live !== null && isForced(live.item, useOnline.getState().forcedPlaces[runtimeId]),
+      prepared: usePrepared.getState().values[runtimeId]?.[key]?.literal ?? null,
+      lost,
+      stale: running !== null && running[use.line - 1] === false,
+      now,
+      format,
+    };
+    return pillOf(state, width);
+  }
+
   private outdate(pill: DrawnPill, ids: string[]): void {
     ids.push(pill.id);
     this.elements.forget(pill.name);
   }
 
   private decoration(
-    attachedData: PillTarget,
+    attachedData: PillTarget | null,
     pill: { text: string; classes: readonly string[]; prepared: string | null },
     line: number,
     column: number,

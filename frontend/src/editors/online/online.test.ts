@@ -63,6 +63,7 @@ describe('pills', () => {
       value,
       changedAt: 0,
     },
+    executed: null,
     forced: false,
     prepared: null,
     lost: false,
@@ -78,6 +79,16 @@ describe('pills', () => {
       classes: ['pill', 'true', 'forced'],
       prepared: '<FALSE>',
     });
+  });
+  it('show what a statement left, in the number format of the view', () => {
+    expect(pillOf(state(42, { executed: '17' }), 4)).toEqual({
+      text: '\u00a0\u00a017',
+      classes: ['pill', 'executed'],
+      prepared: null,
+    });
+    expect(pillOf(state(42, { executed: '17', format: 'hex' }), 0)?.text).toBe('16#0011');
+    expect(pillOf(state(false, { executed: 'TRUE' }), 5)?.classes).toEqual(['pill', 'executed', 'true']);
+    expect(pillOf({ ...state(null), live: null, executed: 'Starting' }, 0)?.text).toBe('Starting');
   });
   it('mark what changed just now, unless the connection is lost', () => {
     const fresh = state(1);

@@ -4,9 +4,12 @@ import { formatShort } from '@/online/format';
 import { FRESH_MS } from '@/online/freshMarks';
 import type { NumberFormat } from '@/text/settings';
 import { isLeaf, valueKind } from '@/online/item';
+import { wholeNumber } from '@/online/literal';
 
 export interface PillState {
   readonly live: LiveValue | null;
+  /** Its literal right after the statement of its line; null without flow control, and where that was not executed. */
+  readonly executed: string | null;
   readonly forced: boolean;
   readonly prepared: string | null;
   /** The connection is lost: the value is the last one known. */
@@ -30,6 +33,7 @@ const LONGEST = 24;
 /** Null where the variable has no value of its own to show. */
 export function pillOf(state: PillState, width: number): Pill | null {
   const { live, prepared } = state;
+  if (state.executed !== null) return executedPill(state, state.executed, width);
   if (live === null || live.value === null || !isLeaf(valueKind(live.item))) return null;
   const plain = formatShort(live.value, live.item, state.format, LONGEST);
   const classes = ['pill'];
@@ -49,6 +53,31 @@ export function pillOf(state: PillState, width: number): Pill | null {
   };
 }
 
+/** Values of flow control stand beside those of other lines and other moments: none of them is marked as fresh. */
+function executedPill({ live, forced, lost, prepared, format }: PillState, literal: string, width: number): Pill {
+  const classes = ['pill', 'executed'];
+  const plain = executedText(literal, live, format);
+  if (plain === 'TRUE' || plain === 'FALSE') classes.push(plain.toLowerCase());
+  if (forced) classes.push('forced');
+  if (lost) classes.push('lost');
+  const padded = /^[A-Za-z_]/.test(plain) ? plain.padEnd(width, NO_BREAK) : plain.padStart(width, NO_BREAK);
+  return {
+    text: forced ? `F${NO_BREAK}${padded}` : padded,
+    classes,
+    prepared: prepared === null ? null : `<${prepared}>`,
+  };
+}
+
+/** A literal in the number format of the view, where it is a number and the type of its variable is known. */
+export function executedText(literal: string, live: LiveValue | null, format: NumberFormat): string {
+  const kind = live === null ? null : valueKind(live.item);
+  const whole = kind === 'int' || kind === 'uint' || kind === 'bits' ? wholeNumber(literal) : null;
+  const real = kind === 'real' ? Number(literal) : NaN;
+  if (live !== null && whole !== null) return formatShort(whole, live.item, format, LONGEST);
+  if (live !== null && !Number.isNaN(real)) return formatShort(real, live.item, format, LONGEST);
+  return literal.length <= LONGEST ? literal : `${literal.slice(0, LONGEST - 1)}\u2026`;
+}
+
 /**
  * Widths that only grow, so that text behind a value does not dance while digits come and go: numbers get the width
  * of the widest one seen, BOOL that of FALSE.
@@ -60,9 +89,17 @@ export class PillWidths {
     const { value } = live;
     if (value === null || typeof value === 'string') return 0;
     if (typeof value === 'boolean') return 5;
-    const now = formatShort(value, live.item, format, LONGEST).length;
-    const known = Math.max(this.widths.get(`${format} ${key}`) ?? 0, now);
-    this.widths.set(`${format} ${key}`, known);
+    return this.grown(`${format} ${key}`, formatShort(value, live.item, format, LONGEST).length);
+  }
+
+  /** Of what flow control shows at a place. */
+  widthOfExecuted(place: string, text: string): number {
+    return text === 'TRUE' || text === 'FALSE' ? 5 : this.grown(place, text.length);
+  }
+
+  private grown(key: string, now: number): number {
+    const known = Math.max(this.widths.get(key) ?? 0, now);
+    this.widths.set(key, known);
     return known;
   }
 }

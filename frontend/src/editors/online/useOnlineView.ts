@@ -12,15 +12,17 @@ import type { OpenText } from '@/text/useTextDocument';
 import { setPanelPrepare } from '@/text/focus';
 import { useEditorSettings } from '@/text/settings';
 import type { CodeEditor } from '@/text/CodePane';
+import type { Executed } from './executed';
 import { InlineMonitor, type MonitorSettings } from './inlineMonitor';
 import { monitorTarget } from './monitorScope';
 import { prepareClicked, prepareValue } from './preparePopup';
 import { noteRunningText, runningText } from './runningText';
 import { unchangedLines } from './staleLines';
+import { useExecuted, useExecutedLines } from './useExecuted';
 import { usesOf } from './uses';
 
-type MonitoredProps = Pick<EditorProps, 'projectId' | 'instance'> &
-  Pick<OpenText, 'document'> & { object: ObjectSummary };
+type MonitoredProps = Pick<EditorProps, 'projectId' | 'instance' | 'visible'> &
+  Pick<OpenText, 'document'> & { object: ObjectSummary; part?: Part };
 
 interface Monitored {
   readonly session: OnlineSession | null;
@@ -31,10 +33,13 @@ interface Monitored {
   readonly ready: boolean;
   /** Function block whose instance has to be chosen first. */
   readonly needsInstanceOf: string | null;
+  /** What flow control says of the body; null without it, and where another text runs. */
+  readonly executed: Executed | null;
 }
 
 /** What an implementation needs to show its values: where its variables live, and which lines are the running ones. */
-export function useMonitored({ projectId, object, instance, document }: MonitoredProps): Monitored {
+export function useMonitored(props: MonitoredProps): Monitored {
+  const { projectId, object, instance, document, visible, part = 'implementation' } = props;
   const { data: objects } = useObjects(projectId);
   const session = useObjectSession(projectId, object);
   const runtimeId = session?.runtimeId ?? null;
@@ -71,7 +76,9 @@ export function useMonitored({ projectId, object, instance, document }: Monitore
   );
   // Without a chosen instance, names of the block would be taken for globals: better no values than wrong ones.
   const ready = settings !== null && target.needsInstanceOf === null && (target.path === null || members !== null);
-  return { session, runtimeId, settings, ready, needsInstanceOf: target.needsInstanceOf };
+  const recorded = visible && part === 'implementation' && running === null && session?.past === null;
+  const executed = useExecuted({ runtimeId, objectId: object.id, shown: recorded });
+  return { session, runtimeId, settings, ready, needsInstanceOf: target.needsInstanceOf, executed };
 }
 
 type OnlineViewProps = EditorProps & OpenText & { object: ObjectSummary; part: Part; editor: CodeEditor | null };
@@ -79,7 +86,8 @@ type OnlineViewProps = EditorProps & OpenText & { object: ObjectSummary; part: P
 /** Values behind the variables of a text while logged in; a click on one prepares a value. */
 export function useOnlineView(props: OnlineViewProps): void {
   const { monaco, editor, panelId, part, visible } = props;
-  const { runtimeId, settings: monitored, ready } = useMonitored(props);
+  const { runtimeId, settings: monitored, ready, executed } = useMonitored(props);
+  useExecutedLines(editor, executed);
   // Which lines run is known of the body; a name is declared in the running program, or has no value.
   const settings = useMemo(
     () => (monitored !== null && part === 'declaration' ? { ...monitored, running: null } : monitored),
@@ -113,4 +121,7 @@ export function useOnlineView(props: OnlineViewProps): void {
     monitor.current?.setVisible(visible);
     if (settings !== null) monitor.current?.set(settings);
   }, [settings, editor, runtimeId, ready, monaco, visible]);
+  useEffect(() => {
+    monitor.current?.setExecuted(executed);
+  }, [executed, editor, runtimeId, ready, monaco]);
 }

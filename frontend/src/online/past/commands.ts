@@ -2,6 +2,7 @@
 import {
   ChevronFirst,
   ChevronLast,
+  FastForward,
   History,
   OctagonAlert,
   Play,
@@ -10,13 +11,13 @@ import {
   StepBack,
   StepForward,
 } from 'lucide-react';
-import { contextChanged, menuGroup, registerCommands, type Enablement } from '@/workbench/commands';
+import { contextChanged, menuGroup, registerCommands, type Command, type Enablement } from '@/workbench/commands';
 import { application, connected, engineer, online, there, when, type Condition } from '@/workbench/conditions';
 import type { CommandContext } from '@/workbench/context';
 import { jumpToFrame } from '@/workbench/online/exception';
 import { atLeast } from '@/workbench/rights';
 import { saveRecording } from './recordings';
-import { closeTimeBar, lookAt, openTimeBar, step, timeBar, togglePlay, useTimeBars } from './store';
+import { closeTimeBar, lookAt, openTimeBar, playToPresent, step, timeBar, togglePlay, useTimeBars } from './store';
 
 /** To look back into a running application its recording has to stop, which is not for everybody. */
 const mayOpen: Condition = (context): Enablement => {
@@ -26,18 +27,24 @@ const mayOpen: Condition = (context): Enablement => {
 const reachable = when(online, there, mayOpen);
 const open: Condition = (context) => (timeBar(context.online?.runtimeId) !== null ? true : 'past.notOpen');
 
-/** Opens the bar where it is closed; answers whether it was open. */
+const opening = new Map<string, Promise<void>>();
+
+/** Opens the bar where it is closed; answers whether it was open, or about to be: keys repeat faster than it opens. */
 async function opened(context: CommandContext): Promise<boolean> {
   const session = context.online!;
-  if (timeBar(session.runtimeId) !== null) return true;
-  await openTimeBar(session);
-  return false;
+  const { runtimeId } = session;
+  if (timeBar(runtimeId) !== null) return true;
+  const under = opening.get(runtimeId);
+  if (under !== undefined) return under.then(() => true);
+  const open = openTimeBar(session).finally(() => opening.delete(runtimeId));
+  opening.set(runtimeId, open);
+  return open.then(() => false);
 }
 
 /** Steps; a running application, when the bar opens, shows its last cycle first. */
 async function stepBy(context: CommandContext, delta: number): Promise<void> {
   const running = context.online!.runtime?.state === 'run';
-  if ((await opened(context)) || !running) step(context.online!.runtimeId, delta);
+  if ((await opened(context)) || !running) await step(context.online!.runtimeId, delta);
 }
 
 const onBar = (act: (runtimeId: string) => void | Promise<void>) => (context: CommandContext) =>
@@ -48,6 +55,18 @@ export function showFault(context: CommandContext): void {
   lookAt(runtimeId, timeBar(runtimeId)!.moments.length - 1);
   if (runtime?.exception) jumpToFrame(runtime.exception);
 }
+
+/** Beside the other steps of the debugger, which lead on to later cycles while a past one is shown. */
+const stepBack: Command = {
+  id: 'past.stepBack',
+  title: 'past.stepBack',
+  icon: StepBack,
+  keys: ['Alt+F10', 'Ctrl+Alt+ArrowLeft'],
+  menu: { menu: 'debug', group: '2_step', order: 5.5 },
+  toolbar: { group: '4_step', order: 6 },
+  enabled: reachable,
+  run: (context) => stepBy(context, -1),
+};
 
 const commands = menuGroup(
   'debug',
@@ -62,15 +81,6 @@ const commands = menuGroup(
     run: async (context) => {
       if (await opened(context)) await closeTimeBar(context.online!.runtimeId);
     },
-  },
-  {
-    id: 'past.stepBack',
-    title: 'past.stepBack',
-    icon: StepBack,
-    keys: ['Ctrl+Alt+ArrowLeft'],
-    toolbar: { group: '3_run', order: 8 },
-    enabled: reachable,
-    run: (context) => stepBy(context, -1),
   },
   {
     id: 'past.stepForward',
@@ -113,6 +123,13 @@ const commands = menuGroup(
     run: onBar((runtimeId) => togglePlay(runtimeId)),
   },
   {
+    id: 'past.toPresent',
+    title: 'past.toPresent',
+    icon: FastForward,
+    enabled: when(reachable, open),
+    run: onBar(playToPresent),
+  },
+  {
     id: 'past.save',
     title: 'past.save',
     icon: Save,
@@ -130,6 +147,6 @@ const commands = menuGroup(
 );
 
 export function registerPastCommands(): void {
-  registerCommands(commands);
+  registerCommands([stepBack, ...commands]);
   useTimeBars.subscribe(contextChanged);
 }

@@ -1,7 +1,7 @@
 /** Looking back: the time bar of each runtime, and the way of its channel through past cycles. */
 import { create } from 'zustand';
 import { api } from '@/api/client';
-import { notify } from '@/ui/notices';
+import { guard, notify } from '@/ui/notices';
 import { t } from '@/i18n';
 import { pastShown, useOnline, type OnlineSession } from '@/workbench/onlineSession';
 import { channelOf, onLooked } from '../connections';
@@ -134,13 +134,21 @@ export function lostPast(runtimeId: string): void {
   pastShown(runtimeId, null);
 }
 
-export function step(runtimeId: string, delta: number): void {
+/** Back or, with 1, forward by a cycle; behind the last one are live values. */
+export async function step(runtimeId: string, delta: number): Promise<void> {
   stopPlaying(runtimeId);
   const bar = timeBar(runtimeId);
   if (bar === null) return;
+  if (delta > 0 && (bar.at === null || bar.at >= bar.moments.length - 1)) return toPresent(runtimeId);
   // Standing still, the present is the end of the last cycle: the first step back leads to the one before.
   const standing = bar.at === null && !bar.frozen && delta < 0 && bar.moments.length > 1 ? -1 : 0;
   lookAt(runtimeId, stepped(bar.moments.length, bar.at, delta + standing));
+}
+
+/** To where nothing is shown of the past; where the application stands, the bar stays for another look back. */
+async function toPresent(runtimeId: string): Promise<void> {
+  if (timeBar(runtimeId)?.frozen === true) await closeTimeBar(runtimeId);
+  else lookAt(runtimeId, null);
 }
 
 // -- playing ---------------------------------------------------------------------------------------------
@@ -165,7 +173,10 @@ export function togglePlay(runtimeId: string, speed = 1): void {
     return;
   }
   const last = bar.moments.length - 1;
-  const from = bar.at === null || bar.at >= last ? 0 : bar.at;
+  play(runtimeId, bar.at === null || bar.at >= last ? 0 : bar.at, speed);
+}
+
+function play(runtimeId: string, from: number, speed: number, ended: () => void = () => undefined): void {
   const began = performance.now();
   change(runtimeId, { playing: speed });
   lookAt(runtimeId, from);
@@ -175,9 +186,20 @@ export function togglePlay(runtimeId: string, speed = 1): void {
     if (start === undefined) return stopPlaying(runtimeId);
     const index = indexAt(moments, start.at + (performance.now() - began) * speed);
     if (index !== timeBar(runtimeId)?.at) lookAt(runtimeId, index);
-    if (index >= last) stopPlaying(runtimeId);
+    if (index < moments.length - 1) return;
+    stopPlaying(runtimeId);
+    ended();
   }, FRAME_MS);
   players.set(runtimeId, player);
+}
+
+/** Runs through the cycles from where the slider stands, and on into the present. */
+export function playToPresent(runtimeId: string): void {
+  stopPlaying(runtimeId);
+  const bar = timeBar(runtimeId);
+  if (bar === null) return;
+  if (bar.at === null || bar.at >= bar.moments.length - 1) void guard(() => toPresent(runtimeId));
+  else play(runtimeId, bar.at, 1, () => void guard(() => toPresent(runtimeId)));
 }
 
 /** Plays at another speed from where it is. */

@@ -32,6 +32,7 @@ import {
   runtimeAct,
 } from '../online/acts';
 import { control } from '../debugger/acts';
+import { runCommand } from '../run';
 import { waitsForStart } from '../online/runtimeText';
 
 const hasMessages = (): Enablement => {
@@ -45,8 +46,12 @@ const notRunning = (context: CommandContext): Enablement => {
   return state(context) === 'exception' ? 'reason.exception' : true;
 };
 const isHalted = (context: CommandContext) => (context.online?.runtime?.halted.length ?? 0) > 0;
+/** Past cycles of a program that is under way are shown. */
+const looksBack = (context: CommandContext) => context.online?.past != null && state(context) === 'run';
 const startable = (context: CommandContext): Enablement =>
-  waitsForStart(context.online?.runtime?.exception) || isHalted(context) ? true : notRunning(context);
+  waitsForStart(context.online?.runtime?.exception) || isHalted(context) || looksBack(context)
+    ? true
+    : notRunning(context);
 const running = (context: CommandContext): Enablement => (state(context) === 'stop' ? 'reason.stopped' : true);
 const changed = (context: CommandContext): Enablement =>
   context.online?.relation === 'same' && context.dirtyPanels.length === 0 ? 'reason.nothingChanged' : true;
@@ -202,9 +207,13 @@ const commands: Command[] = [
       keys: ['F5'],
       toolbar: { group: '3_run', order: 1 },
       enabled: when(online, connected, operator, startable),
-      // What stands at a breakpoint goes on.
+      // What stands at a breakpoint goes on, and from a past cycle one comes back to the present.
       run: (context) =>
-        isHalted(context) ? control(context.online!.runtimeId, 'continue') : runtimeAct(context, 'start'),
+        looksBack(context)
+          ? runCommand('past.toPresent')
+          : isHalted(context)
+            ? control(context.online!.runtimeId, 'continue')
+            : runtimeAct(context, 'start'),
     },
     {
       id: 'debug.stop',

@@ -19,9 +19,8 @@ export async function refreshDebugger(runtimeId: string): Promise<void> {
 }
 
 /** The first breakpoint compiles the instrumented code, which takes its time: the status bar says so. */
-async function withCode<Answer>(runtimeId: string, act: () => Promise<Answer>): Promise<Answer> {
-  const compiled = useDebugger.getState().runtimes[runtimeId]?.state.available ?? false;
-  if (compiled) return act();
+export async function compiled<Answer>(runtimeId: string, act: () => Promise<Answer>): Promise<Answer> {
+  if (useDebugger.getState().runtimes[runtimeId]?.state.available === true) return act();
   useProject.setState({ busy: { text: t('debugger.compiling'), cancel: () => undefined } });
   try {
     return await act();
@@ -31,7 +30,7 @@ async function withCode<Answer>(runtimeId: string, act: () => Promise<Answer>): 
 }
 
 export async function addBreakpoint(runtimeId: string, breakpoint: BreakpointOrder): Promise<Breakpoint> {
-  const made = await withCode(runtimeId, () =>
+  const made = await compiled(runtimeId, () =>
     api.post('/api/v1/runtimes/{runtime_id}/debug/breakpoints', { ...at(runtimeId), body: { breakpoint } }),
   );
   await refreshDebugger(runtimeId);
@@ -42,7 +41,7 @@ export async function addBreakpoint(runtimeId: string, breakpoint: BreakpointOrd
 
 export async function changeBreakpoint(runtimeId: string, id: number, breakpoint: BreakpointOrder): Promise<void> {
   const params = { path: { runtime_id: runtimeId, id: String(id) } };
-  await withCode(runtimeId, () =>
+  await compiled(runtimeId, () =>
     api.put('/api/v1/runtimes/{runtime_id}/debug/breakpoints/{id}', { params, body: { breakpoint } }),
   );
   await refreshDebugger(runtimeId);
@@ -63,7 +62,7 @@ export async function removeBreakpoints(runtimeId: string): Promise<void> {
 export async function control(runtimeId: string, command: ControlOrder['command'], place?: Spot): Promise<void> {
   const debugged = useDebugger.getState().runtimes[runtimeId];
   const task = command === 'continue' || command === 'pause' ? null : (debugged?.task ?? null);
-  const state = await withCode(runtimeId, () =>
+  const state = await compiled(runtimeId, () =>
     api.post('/api/v1/runtimes/{runtime_id}/debug/control', {
       ...at(runtimeId),
       body: { command, task, place: place ?? null },

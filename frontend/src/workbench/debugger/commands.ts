@@ -1,9 +1,12 @@
 /** Commands of the debugger that need no place in a text; those that do are in `editors/online`. */
-import { ArrowDownToDot, ArrowUpFromDot, CircleX, Pause, Play, Redo2, StepForward } from 'lucide-react';
+import { ArrowDownToDot, ArrowUpFromDot, CircleX, Pause, Play, Redo2, StepForward, Workflow } from 'lucide-react';
 import { contextChanged, menuGroup, registerCommands, type Command, type Enablement } from '../commands';
-import { connected, engineer, online, when } from '../conditions';
+import { connected, engineer, live, online, when } from '../conditions';
 import type { CommandContext } from '../context';
-import { control, removeBreakpoints, setDebugSettings } from './acts';
+import type { TextKey } from '@/i18n';
+import { runCommand } from '../run';
+import { control, removeBreakpoints, setDebugSettings, type DebugSettings } from './acts';
+import { hasFlow, switchFlow, useFlow } from './flow';
 import { useDebugger } from './state';
 
 const debuggerOf = ({ online: session }: CommandContext) =>
@@ -22,10 +25,44 @@ const anyBreakpoint = (context: CommandContext): Enablement =>
 
 const mayDebug = when(online, connected, engineer);
 const mayStep = when(mayDebug, halted);
+const inPast = ({ online: session }: CommandContext) => session?.past != null;
 
 type Step = Parameters<typeof control>[1];
 
 const moves = (command: Step) => (context: CommandContext) => control(context.online!.runtimeId, command);
+
+/** While a past cycle is shown, to go on means to go on to later ones, by a command of the time bar. */
+function movesAlso(command: Step, inThePast: string): Pick<Command, 'enabled' | 'run'> {
+  return {
+    enabled: (context) => inPast(context) || mayStep(context),
+    run: (context) => (inPast(context) ? runCommand(inThePast) : moves(command)(context)),
+  };
+}
+
+const hasFlowControl = (context: CommandContext) => context.online !== null && hasFlow(context.online.runtimeId);
+
+/** A setting of the debugger that is on or off. */
+function setting<Name extends keyof DebugSettings>(
+  id: string,
+  title: TextKey,
+  name: Name,
+  off: DebugSettings[Name],
+  on: DebugSettings[Name],
+): Omit<Command, 'menu'> {
+  const settingsOf = (context: CommandContext) => debuggerOf(context)?.state.settings;
+  const isOn = (context: CommandContext) => settingsOf(context)?.[name] === on;
+  return {
+    id,
+    title,
+    enabled: mayDebug,
+    checked: isOn,
+    run: async (context) => {
+      const settings = settingsOf(context);
+      if (settings === undefined) return;
+      await setDebugSettings(context.online!.runtimeId, { ...settings, [name]: isOn(context) ? off : on });
+    },
+  };
+}
 
 const commands: Command[] = [
   ...menuGroup(
@@ -36,8 +73,7 @@ const commands: Command[] = [
       title: 'debugger.continue',
       icon: Play,
       toolbar: { group: '4_step', order: 1 },
-      enabled: mayStep,
-      run: moves('continue'),
+      ...movesAlso('continue', 'past.toPresent'),
     },
     {
       id: 'debug.pause',
@@ -45,7 +81,7 @@ const commands: Command[] = [
       icon: Pause,
       keys: ['Ctrl+Shift+F5'],
       toolbar: { group: '4_step', order: 2 },
-      enabled: when(mayDebug, running),
+      enabled: when(mayDebug, running, live),
       run: moves('pause'),
     },
     {
@@ -54,8 +90,7 @@ const commands: Command[] = [
       icon: Redo2,
       keys: ['F10'],
       toolbar: { group: '4_step', order: 3 },
-      enabled: mayStep,
-      run: moves('step_over'),
+      ...movesAlso('step_over', 'past.stepForward'),
     },
     {
       id: 'debug.stepInto',
@@ -63,8 +98,7 @@ const commands: Command[] = [
       icon: ArrowDownToDot,
       keys: ['F8'],
       toolbar: { group: '4_step', order: 4 },
-      enabled: mayStep,
-      run: moves('step_into'),
+      ...movesAlso('step_into', 'past.stepForward'),
     },
     {
       id: 'debug.stepOut',
@@ -73,14 +107,14 @@ const commands: Command[] = [
       keys: ['Shift+F10'],
       yieldsKeys: true,
       toolbar: { group: '4_step', order: 5 },
-      enabled: mayStep,
+      enabled: when(mayStep, live),
       run: moves('step_out'),
     },
     {
       id: 'debug.endCycle',
       title: 'debugger.endCycle',
       icon: StepForward,
-      enabled: mayStep,
+      enabled: when(mayStep, live),
       run: moves('single_cycle'),
     },
   ),
@@ -92,35 +126,27 @@ const commands: Command[] = [
     enabled: when(mayDebug, anyBreakpoint),
     run: (context) => removeBreakpoints(context.online!.runtimeId),
   },
-  {
-    id: 'debug.safeOutputs',
-    title: 'debugger.safeOutputs',
-    menu: { menu: 'debug', group: '4_settings', order: 0 },
-    enabled: mayDebug,
-    checked: (context) => debuggerOf(context)?.state.settings.outputs === 'safe',
-    run: async (context) => {
-      const settings = debuggerOf(context)?.state.settings;
-      if (settings === undefined) return;
-      const outputs = settings.outputs === 'safe' ? 'keep' : 'safe';
-      await setDebugSettings(context.online!.runtimeId, { ...settings, outputs });
+  ...menuGroup(
+    'debug',
+    '4_settings',
+    {
+      id: 'debug.flowControl',
+      title: 'debugger.flowControl',
+      icon: Workflow,
+      checked: hasFlowControl,
+      // What is on can be switched off, whatever may have happened since.
+      enabled: (context) => hasFlowControl(context) || when(mayDebug, live)(context),
+      run: (context) => switchFlow(context.online!.runtimeId, !hasFlowControl(context)),
     },
-  },
-  {
-    id: 'debug.haltOthers',
-    title: 'debugger.haltOthers',
-    menu: { menu: 'debug', group: '4_settings', order: 1 },
-    enabled: mayDebug,
-    checked: (context) => debuggerOf(context)?.state.settings.other_tasks === 'halt',
-    run: async (context) => {
-      const settings = debuggerOf(context)?.state.settings;
-      if (settings === undefined) return;
-      const other_tasks = settings.other_tasks === 'halt' ? 'run' : 'halt';
-      await setDebugSettings(context.online!.runtimeId, { ...settings, other_tasks });
-    },
-  },
+    setting('debug.safeOutputs', 'debugger.safeOutputs', 'outputs', 'keep', 'safe'),
+    setting('debug.haltOthers', 'debugger.haltOthers', 'other_tasks', 'run', 'halt'),
+  ),
 ];
 
 export function registerDebuggerCommands(): void {
   registerCommands(commands);
   useDebugger.subscribe(contextChanged);
+  useFlow.subscribe((now, before) => {
+    if (Object.keys(now.runtimes).join() !== Object.keys(before.runtimes).join()) contextChanged();
+  });
 }

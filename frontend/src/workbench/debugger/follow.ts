@@ -3,6 +3,7 @@ import { notifyError } from '@/ui/notices';
 import { showPanel } from '../docking/dock';
 import { useOnline } from '../onlineSession';
 import { refreshDebugger, showStack } from './acts';
+import { switchFlow } from './flow';
 import { debuggerGone, newHalts, useDebugger } from './state';
 
 /** Sequence of the state that was asked for last, by runtime. */
@@ -16,6 +17,7 @@ export function followDebugger(): () => void {
     for (const runtimeId of asked.keys())
       if (!runtimes.has(runtimeId)) {
         asked.delete(runtimeId);
+        switchFlow(runtimeId, false);
         debuggerGone(runtimeId);
       }
     for (const [runtimeId, runtime] of runtimes)

@@ -8,6 +8,7 @@ import {
   OctagonAlert,
   TriangleAlert,
   Unplug,
+  Workflow,
   X,
   Zap,
 } from 'lucide-react';
@@ -19,6 +20,7 @@ import { timeText } from '../clock';
 import { showPanel } from '../docking/dock';
 import { usePresence } from '../events';
 import { countOf, presentMessages, useMessages } from '../messages/store';
+import { useFlow } from '../debugger/flow';
 import { exceptionPlace, exceptionText, exceptionTitle, jumpToFrame } from '../online/exception';
 import { microsText } from '../online/times';
 import { useKnownRelation } from '../online/knownRelation';
@@ -50,6 +52,7 @@ export function StatusBar() {
           <PaceItem pacedMs={session.pacedMs} />
           <RelationItem relation={session.relation} />
           <ForceItem runtimeId={session.runtimeId} />
+          <FlowItem runtimeId={session.runtimeId} />
           <ExceptionItem session={session} />
         </>
       ) : (
@@ -167,6 +170,21 @@ function ForceItem({ runtimeId }: { runtimeId: string }) {
       >
         <LockKeyhole size={13} aria-hidden />
         {t('status.force')} <span className="digits">{count}</span>
+      </button>
+    </Tooltip>
+  );
+}
+
+/** Flow control makes programs slower: it must not be forgotten, either. */
+function FlowItem({ runtimeId }: { runtimeId: string }) {
+  const t = useText();
+  const on = useFlow(({ runtimes }) => runtimeId in runtimes);
+  if (!on) return null;
+  return (
+    <Tooltip text={t('debugger.flowOn')} detail={t('debugger.flowOff')} side="top">
+      <button className={`${styles.item} ${styles.ok}`} onClick={() => void runCommand('debug.flowControl')}>
+        <Workflow size={13} aria-hidden />
+        {t('debugger.flowControl')}
       </button>
     </Tooltip>
   );
