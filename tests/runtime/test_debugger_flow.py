@@ -99,12 +99,13 @@ def test_a_cycle_that_had_begun_before_is_no_complete_one(plc: SoftPlc) -> None:
     plc.start()
     halted(plc)
     plc.debugger.set_flow([URI])
-    flow = plc.debugger._flow
-    assert flow is not None
+    variant = plc.debugger.variant
+    assert variant is not None
+    flow = Record(variant.executive.layouts["FLOW_TABLE"], variant.tasks[0]["pFlow"])
     for complete in (False, True):
         plc.debugger.control("continue")
         cycle = halted(plc).halted[0].cycle
-        assert flow.table["doneCycle"] == (cycle - 1 if complete else 0)
+        assert flow["doneCycle"] == (cycle - 1 if complete else 0)
 
 
 def test_it_ends(plc: SoftPlc) -> None:
