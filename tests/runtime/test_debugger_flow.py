@@ -18,6 +18,7 @@ from tappet.runtime.debugger import flow_control
 from tappet.runtime.debugger.flow_control import LEASE_S, FlowControl
 from tappet.runtime.debugger.shapes import BreakpointOrder
 from tappet.runtime.errors import DebugError, PlcError
+from tappet.runtime.executive.records import Record
 from tappet.runtime.plc import SoftPlc
 
 TEXT = """FUNCTION Half : DINT

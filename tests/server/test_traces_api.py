@@ -268,7 +268,7 @@ def test_a_recording_with_a_limit_keeps_the_newest_samples(client: TestClient) -
 
 def test_lists_of_recordings_are_filtered(client: TestClient) -> None:
     _download(client)
-    _until(lambda: _state(client)["records"][0]["samples"] > 20)
+    until(lambda: _state(client)["records"][0]["samples"] > 20)
     stored = client.post(f"{TRACES}/Trace/snapshot", json={"title": "Filtered"}).json()
 
     def listed(**query: str) -> bool:
