@@ -70,6 +70,38 @@ def test_a_recording_is_a_test_of_the_project(failing: Project, press: Path, tmp
     assert invoke("test", press, "--filter", "monday*never").code == 1
 
 
+def _expecting(project: Project, expects: str) -> Project:
+    item = next(item for item in project.walk() if item.kind == "flight_recording")
+    return edit.change_data(project, item.id, item.data.model_dump() | {"expects": expects})
+
+
+def test_a_recording_can_ask_for_its_fault(failing: Project, tmp_path: Path) -> None:
+    folder.save(_expecting(failing, "same_fault"), tmp_path / "press")
+    passed = invoke("test", tmp_path / "press")
+    assert (passed.code, "ok      Stop of Monday" in passed.output) == (0, True), passed
+    folder.save(_expecting(with_text(failing, MENDED), "same_fault"), tmp_path / "mended")
+    junit = tmp_path / "report.xml"
+    failed = invoke("test", tmp_path / "mended", "--junit", junit)
+    assert failed.code == 1
+    assert "the recorded fault of cycle 21 did not come again: division by zero" in failed.output
+    assert '<failure type="error" message="the recorded fault of' in junit.read_text()
+    assert "first that differs" not in failed.output, "up to the fault all variables are as recorded"
+    # a program that makes 30 pieces a cycle in the place of 20, from the first replayed one on
+    more = MENDED.replace("100 / recipe", "150 / recipe")
+    folder.save(_expecting(with_text(failing, more), "same_fault"), tmp_path / "more")
+    assert (
+        "cycle 2 is the first that differs: PLC_PRG.pieces was 40, is 50"
+        in invoke("test", tmp_path / "more").output
+    )
+    # and one that fails before: 20 pieces of the first cycle and 16 x 30 are 500
+    earlier = more + " recipe := recipe / (500 - pieces) * 0 + 5;"
+    folder.save(_expecting(with_text(failing, earlier), "same_fault"), tmp_path / "earlier")
+    other = invoke("test", tmp_path / "earlier")
+    assert other.code == 1
+    said = "another fault than the recorded one of cycle 21 came: cycle 17: division by zero"
+    assert said in other.output, other.output
+
+
 def test_one_that_is_no_test_is_left_out(failing: Project, tmp_path: Path) -> None:
     item = next(item for item in failing.walk() if item.kind == "flight_recording")
     project = edit.change_data(failing, item.id, item.data.model_dump() | {"tested": False})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import time
 from pathlib import Path
 
 import pytest
@@ -44,10 +45,10 @@ def _value(row: Locator) -> Locator:
     return row.get_by_role("gridcell").nth(2)
 
 
-def _kept(page: Page, cycle: int, expression: str) -> str:
+def _kept(page: Page, cycle: int, expression: str, runtime: str = "local") -> str:
     """The value at the end of a past cycle, as the server reads it for anybody."""
     answer = page.request.post(
-        f"{page.url.split('#')[0]}api/v1/runtimes/local/flight/read",
+        f"{page.url.split('#')[0]}api/v1/runtimes/{runtime}/flight/read",
         headers={"X-Tappet-Client": "1", "Origin": page.url.split("/#")[0]},
         data={"cycle": cycle, "expressions": [expression]},
     )
@@ -165,6 +166,84 @@ def test_a_recording_is_kept_looked_into_and_replayed(page: Page) -> None:
 
     held.get_by_role("button", name="On the Present Program").click()
     expect(held.get_by_role("status")).to_contain_text("Division by zero", timeout=120_000)
+
+
+BOTTLE = "GVL_Plant.aBottles[1].lrPosition"
+DRAWN_AT = """() => window.__viserMutable?.nodePoseData['/bottle_1']?.position[0] ?? null"""
+
+
+def _bottle(page: Page, view: str) -> float | None:
+    """Where the first bottle is drawn, in mm."""
+    found = page.get_by_test_id(view)
+    frame = found.element_handle().content_frame() if found.count() else None
+    x = frame.evaluate(DRAWN_AT) if frame is not None else None
+    return None if x is None else float(x) * 1000.0
+
+
+def _drawn_as_kept(page: Page, cycle: int, runtime: str = "local") -> None:
+    """The view of the past comes to show the bottle where it was in that cycle."""
+    kept = float(_kept(page, cycle, BOTTLE, runtime))
+    deadline = time.monotonic() + 30.0
+    while (x := _bottle(page, "scene-view-past")) is None or abs(x - kept) > 0.01:
+        assert time.monotonic() < deadline, f"cycle {cycle}: drawn at {x}, recorded at {kept}"
+        page.wait_for_timeout(50)
+
+
+def test_the_3d_view_shows_the_cycle_too(page: Page, server: Server) -> None:
+    open_project(page)
+    open_object(page, "Plant3D")
+    live = page.get_by_test_id("scene-view")
+    expect(page.frame_locator("[data-testid=scene-view]").locator("canvas").first).to_be_visible(
+        timeout=30_000
+    )
+    log_in(page)
+    page.keyboard.press("Control+Alt+H")
+    bar = _bar(page)
+    expect(bar.get_by_role("status")).to_contain_text("the last one")
+    expect(page.get_by_test_id("scene-view-past")).to_be_visible(timeout=30_000)
+    expect(live).to_be_hidden()
+    last = _cycle(page)
+    _drawn_as_kept(page, last)
+    bar.get_by_role("slider").press("Home")
+    expect(bar.get_by_role("status")).not_to_contain_text(f"cycle {last},")
+    first = _cycle(page)
+    assert abs(float(_kept(page, first, BOTTLE)) - float(_kept(page, last, BOTTLE))) > 1.0, "it has moved"
+    _drawn_as_kept(page, first)
+    page.keyboard.press("Control+Alt+ArrowRight")
+    _drawn_as_kept(page, _cycle(page))
+    stripe = page.locator("[data-tone=past]").filter(has_text="Plant3D").first
+    expect(stripe).to_contain_text("before the last one")
+    folder = Path(os.environ.get("TAPPET_PICTURES", server.data))
+    page.screenshot(path=folder / "past-scene.png")
+
+    bar.get_by_role("button", name="Back to Live Values").click()
+    expect(live).to_be_visible()
+    expect(page.get_by_test_id("scene-view-past")).to_be_hidden()
+
+
+def test_the_3d_view_of_a_saved_recording(page: Page, server: Server) -> None:
+    _to_the_fault(page)
+    with answer_to(page, "/recordings") as answer:
+        choose_menu(page, "Debug", "Save Past Cycles")
+    assert answer.value.ok, answer.value.text()
+    page.keyboard.press("Control+F8")
+    expect(status_bar(page).get_by_text("Offline")).to_be_visible()
+    held = page.get_by_role("tabpanel").filter(has_text="Look into It")
+    with answer_to(page, "/open") as opened:
+        held.get_by_role("button", name="Look into It").click()
+    runtime = opened.value.json()["runtime"]["id"]
+    bar = _bar(page)
+    expect(bar).to_be_visible()
+    open_object(page, "Plant3D")
+    expect(page.frame_locator("[data-testid=scene-view]").locator("canvas").first).to_be_visible(
+        timeout=30_000
+    )
+    bar.get_by_role("slider").press("Home")
+    expect(bar.get_by_role("status")).to_contain_text("before the fault")
+    _drawn_as_kept(page, _cycle(page), runtime)
+    expect(page.get_by_text("refused")).to_have_count(0)  # nothing asks a recording for what it has not
+    folder = Path(os.environ.get("TAPPET_PICTURES", server.data))
+    page.screenshot(path=folder / "past-scene-recording.png")
 
 
 @pytest.mark.slow

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 import time
+from dataclasses import replace
 
 import msgspec
 import pytest
@@ -16,7 +17,8 @@ from tappet.lang.source import Source
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.flight_recording import FlightRecording, read_recording, write_recording
 from tappet.runtime.local import ApplicationException, LocalRuntime
-from tappet.runtime.replay import ReplayError, replay
+from tappet.runtime.replay import Replayed, ReplayError, replay
+from tappet.runtime.replay_comparison import Difference, SameProgram
 
 BOTTLE = """
 TYPE E_State : (Idle, Filling, Done); END_TYPE
@@ -137,6 +139,23 @@ def test_the_first_cycle_and_variable_that_differ_are_named() -> None:
     assert played.same_fault, "the last write, which leads to the fault, is still there"
 
 
+def test_what_lies_behind_the_end_of_a_text_is_no_difference() -> None:
+    """It is left over from where the text was put together."""
+    package = build(BOTTLE, MAIN)
+    symbols = package.symbols
+    text = symbols.resolve("PLC_PRG.text")
+    then = bytearray(package.image_size)
+    now = bytearray(then)
+    comparison = SameProgram(symbols, [], 0, 0)
+    then[text.offset : text.offset + 6] = b"n1\0abc"
+    now[text.offset : text.offset + 6] = b"n1\0xyz"
+    assert comparison.difference(7, bytes(then), bytes(now)) is None
+    now[text.offset + 1] = ord("2")
+    assert comparison.difference(7, bytes(then), bytes(now)) == Difference(
+        7, (("PLC_PRG.text", "'n1'", "'n2'"),)
+    )
+
+
 def test_several_tasks_run_in_their_order() -> None:
     text = """
 VAR_GLOBAL a, b, c : DINT; trigger : BOOL; END_VAR
@@ -190,6 +209,21 @@ def test_variables_of_mended_code_are_found_by_name() -> None:
     assert played.values == {"PLC_PRG.pieces": pieces, "PLC_PRG.recipe": "0", "PLC_PRG.more": "3"}
 
 
+def test_what_other_code_does_otherwise_is_told() -> None:
+    """Of the variables that both programs have, wherever they lie; pointers and new ones do not count."""
+    recording = _record(build(BOTTLE, MAIN))
+    text = FIXED.replace("pieces : DINT;", "extra : ARRAY [0..99] OF LREAL; pieces : DINT;")
+    same = replay(recording, code=_built_on(recording.code(), text))
+    assert (same.fault, same.difference) == (None, None)
+    other = text.replace("IF b <> 0 THEN", "IF b = 4 THEN Share := 26; ELSIF b <> 0 THEN")
+    played = replay(recording, code=_built_on(recording.code(), other))
+    assert played.difference is not None
+    assert played.difference.cycle == 21, "in which the recipe becomes 4"
+    found = {name: (then, now) for name, then, now in played.difference.variables}
+    # 20 cycles with a tenth of 100, then a quarter, which is 25 in the one and 26 in the other
+    assert found == {"PLC_PRG.pieces": ("225", "226"), "PLC_PRG.text": ("'n225'", "'n226'")}
+
+
 def _built_on(package: CodePackage, text: str) -> CodePackage:
     result = build_application([Source("a.st", text)], MAIN, BuildOptions(), previous=package)
     assert result.package is not None, result.diagnostics
@@ -210,6 +244,17 @@ def test_what_lacks_cycles_is_refused(change: dict[str, object], says: str) -> N
     recording = _record(build(BOTTLE, MAIN), fail=False)
     with pytest.raises(ReplayError, match=says):
         replay(msgspec.structs.replace(recording, **change))
+
+
+def test_a_cycle_that_takes_too_long_is_the_same_fault_at_any_line() -> None:
+    """Where it was when its time was over is chance."""
+    recording = _record(build(BOTTLE, MAIN))
+    fault = recording.exception
+    assert fault is not None
+    slow = replace(fault, name="WATCHDOG", line=5)
+    assert Replayed(1, 1, slow, replace(slow, line=9, pou="Share")).same_fault
+    assert not Replayed(1, 1, slow, replace(slow, task="Other")).same_fault
+    assert not Replayed(1, 1, fault, replace(fault, line=fault.line + 1)).same_fault
 
 
 def test_a_real_run_ends_in_its_fault_again() -> None:

@@ -187,3 +187,62 @@ def test_a_replay_fails_as_it_did_and_no_more_when_mended(
     broken = admin.post(f"{kept}/replay", json={"today": True})
     assert (broken.status_code, broken.json()["type"]) == (409, "urn:tappet:problem:build-errors")
     assert admin.post(f"{kept}/open").json()["relation"] == "download"
+
+
+def _tests(client: TestClient, ids: dict[str, str], **order: Any) -> dict[str, Any]:
+    url = f"{API}/projects/{ids['project']}/applications/{ids['application']}/tests"
+    answer = client.post(url, json=order)
+    assert answer.status_code == 200, answer.text
+    report: dict[str, Any] = answer.json()
+    return report
+
+
+def _expect(client: TestClient, ids: dict[str, str], kept: str, **data: Any) -> None:
+    """Changes what is expected of a recording."""
+    url = f"{API}/projects/{ids['project']}/objects/{kept.rsplit('/', 1)[1]}"
+    item = client.get(url).json()
+    body = {"base_revision": item["revision"], "data": {**item["data"], **data}}
+    answer = client.put(url, json=body)
+    assert answer.status_code == 200, answer.text
+
+
+def test_recordings_are_tests_of_the_application(
+    admin: TestClient, press: dict[str, str], kept: str, recording: str
+) -> None:
+    failed = _tests(admin, press)
+    assert (failed["ok"], failed["total"], failed["failed"], failed["problem"]) == (False, 1, 1, None)
+    (suite,) = failed["suites"]
+    (test,) = suite["tests"]
+    assert (suite["name"], test["name"]) == ("Flight recordings", "Monday")
+    (failure,) = test["failures"]
+    assert failure["message"] == "cycle 21: division by zero"
+    assert (failure["object_id"], failure["line"]) == (press["program"], 1)
+    url = f"{API}/projects/{press['project']}/applications/{press['application']}/tests"
+    assert admin.get(url).json()["outdated"] is False
+
+    _expect(admin, press, kept, expects="same_fault")
+    assert admin.get(url).json()["outdated"] is True, "what is expected is part of what is tested"
+    assert _tests(admin, press)["ok"] is True
+    _write(admin, press, MENDED)
+    gone = _tests(admin, press)["suites"][0]["tests"][0]["failures"][0]
+    assert gone["message"] == "the recorded fault of cycle 21 did not come again: division by zero"
+    _expect(admin, press, kept, expects="no_fault")
+    assert _tests(admin, press)["passed"] == 1
+
+    assert _upload(admin, press, recording, "Tuesday").status_code == 201
+    some = _tests(admin, press, only=["Flight recordings.Tuesday"])
+    assert [test["outcome"] for test in some["suites"][0]["tests"]] == ["skipped", "passed"]
+    assert admin.get(url).json()["report"]["passed"] == 2, "the other one keeps its result"
+    assert _tests(admin, press, filter="*tues")["total"] == 1
+    _expect(admin, press, kept, tested=False)
+    assert _tests(admin, press)["total"] == 1
+
+
+def test_results_of_recordings_are_told_in_chinese(
+    admin: TestClient, press: dict[str, str], kept: str
+) -> None:
+    admin.headers["Accept-Language"] = "zh"
+    _expect(admin, press, kept, expects="same_fault")
+    _write(admin, press, MENDED)
+    failure = _tests(admin, press)["suites"][0]["tests"][0]["failures"][0]
+    assert failure["message"] == "周期 21 的记录故障没有再次出现：除以零"

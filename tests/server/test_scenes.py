@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from fake_plc import FakePlc
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 from pydantic import ValidationError
@@ -13,6 +14,7 @@ from server_clients import bare
 from tappet.project import folder
 from tappet.project.scene import ColorChoice, Element, Linear, Repetition, Scene, Threshold
 from tappet.server.example import find_example
+from tappet.server.scenes.service import SceneServer
 from tappet.server.scenes.view import color, number, visible
 from tappet.server.services import Services
 
@@ -188,3 +190,61 @@ def test_the_scene_of_the_example_is_shown_to_those_who_are_logged_in(
     refused = admin.post(url.replace(drawn["id"], program["id"]), json=order)
     assert refused.status_code == 422
     assert program["name"] in refused.json()["detail"]
+
+
+def _drawn_scene(services: Services) -> tuple[str, str]:
+    """A project with a scene whose only body is at x = PLC_PRG.nCount; its view's URL and the ids."""
+    body = {"name": "Bottle", "shape": "box", "position": [{"variable": "PLC_PRG.nCount"}, 0.0, 0.0]}
+    info = services.store.create_project("Plant", "ann")
+    root = next(item for item in services.store.load(info.id).walk() if item.kind == "application")
+    drawn = Scene.model_validate({"unit": 1.0, "elements": [body]})
+    item = services.store.add(info.id, "ann", root.id, "scene", "Plant3D", data=drawn.model_dump(mode="json"))
+    return info.id, item.id
+
+
+def _x(services: Services, path: str) -> float:
+    """Where the body of a view is drawn."""
+    server = services.views.server_of(path.strip("/").split("/")[1])
+    assert isinstance(server, SceneServer)
+    return float(server._view._handles[0].position[0])
+
+
+def test_a_view_of_the_past_shows_its_cycle(
+    services: Services, admin: TestClient, runtime_id: str, plc: FakePlc
+) -> None:
+    for _ in range(5):
+        plc.set("PLC_PRG.nCount", 100 + plc.cycle + 1)
+        plc.run_cycle()
+    plc.set("PLC_PRG.nCount", 7)
+    project, scene_id = _drawn_scene(services)
+    url = f"/api/v1/projects/{project}/objects/{scene_id}/view"
+    opened = admin.post(url, json={"runtime_id": runtime_id, "cycle": 3})
+    assert opened.status_code == 200, opened.text
+    path = opened.json()["path"]
+    assert _x(services, path) == 103.0
+    assert "<title>Viser</title>" in admin.get(path).text
+    view_id = path.strip("/").split("/")[1]
+    assert admin.put(f"{url}/{view_id}/cycle", json={"cycle": 5}).status_code == 204
+    assert _x(services, path) == 105.0
+    refused = admin.put(f"{url}/{view_id}/cycle", json={"cycle": 99})
+    assert (refused.status_code, "cycle 99 is not kept" in refused.json()["detail"]) == (409, True)
+    assert _x(services, path) == 105.0, "it stays where it was"
+
+    other = admin.post(url, json={"runtime_id": runtime_id, "cycle": 3}).json()["path"]
+    assert other != path, "everybody looks at a cycle of his own"
+    live = admin.post(url, json={"runtime_id": runtime_id}).json()["path"]
+    refused = admin.put(f"{url}/{live.strip('/').split('/')[1]}/cycle", json={"cycle": 3})
+    assert refused.status_code == 404, "the present is shared: nobody moves it"
+    assert admin.put(f"{url}/nobody/cycle", json={"cycle": 3}).status_code == 404
+
+
+def test_a_cycle_that_is_not_kept_opens_no_view(
+    services: Services, admin: TestClient, runtime_id: str, plc: FakePlc
+) -> None:
+    plc.run_cycle()
+    project, scene_id = _drawn_scene(services)
+    before = services.views.ids()
+    url = f"/api/v1/projects/{project}/objects/{scene_id}/view"
+    refused = admin.post(url, json={"runtime_id": runtime_id, "cycle": 99})
+    assert (refused.status_code, "cycle 99 is not kept" in refused.json()["detail"]) == (409, True)
+    assert services.views.ids() == before

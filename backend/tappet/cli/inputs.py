@@ -82,6 +82,7 @@ def one_application(paths: Sequence[Path], only: str | None = None) -> Applicati
 def project_applications(project: Project) -> list[ApplicationInput]:
     """Every application of a project with its libraries and tasks."""
     from tappet.project import sources as project_sources
+    from tappet.runtime.unit_tests.recordings import recorded_tests
 
     return [
         ApplicationInput(
@@ -99,21 +100,10 @@ def project_applications(project: Project) -> list[ApplicationInput]:
                 reserve=project_sources.change_reserve(project, application.id),
                 once=True,
             ),
-            _recordings(project, application.id),
+            recorded_tests(project, application.id),
         )
         for application in project.applications()
     ]
-
-
-def _recordings(project: Project, application_id: str) -> tuple[RecordedTest, ...]:
-    from tappet.project.kinds.flight_recording import FlightRecordingData
-    from tappet.runtime.unit_tests.recordings import RecordedTest
-
-    return tuple(
-        RecordedTest(item.name, item.data.recording)
-        for item in project.walk(application_id)
-        if isinstance(item.data, FlightRecordingData) and item.data.tested and item.data.recording
-    )
 
 
 def _static(project: Project, application_id: str) -> StaticAnalysis:

@@ -2,7 +2,8 @@
 
 The recorded code is loaded, the image of the first kept cycle put into place, and each further cycle gets the
 inputs, writes, forces and the time that it had. With equal code the images are compared cycle by cycle. With
-other code (today's, as an online change of the recorded one) only the end counts: whether it fails.
+other code (today's, as an online change of the recorded one) the variables that both have are compared, but
+the end counts: whether it fails.
 
 Not recorded, and so not replayed: memory of `__NEW`, files, the moments inside a cycle at which a program
 reads the clock, and when other tasks than the bus cycle task ran between two cycles of that one; they are
@@ -15,8 +16,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 
+from tappet.codegen.faults import Fault
 from tappet.codegen.package import CodePackage
-from tappet.codegen.symbol_map import SymbolError, SymbolMap
 from tappet.iec.memory import MAX_IMAGE
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.errors import PlcError
@@ -24,31 +25,33 @@ from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.executive.records import Record
 from tappet.runtime.flight import LEAST_MEMORY, FlightSettings
 from tappet.runtime.flight_past import RecordedPast
-from tappet.runtime.flight_recording import FlightRecording, RecordedTask, RecordedValue, RecordingError
+from tappet.runtime.flight_recording import (
+    FlightRecording,
+    RecordedCycle,
+    RecordedTask,
+    RecordedValue,
+    RecordingError,
+)
 from tappet.runtime.forces import NOBODY, PlacedValue, ValueList
 from tappet.runtime.local import LocalRuntime
 from tappet.runtime.online_change import OnlineChangeError
 from tappet.runtime.places import Place, find_again, name_at
 from tappet.runtime.pointers import moved_image, pointer_places
+from tappet.runtime.replay_comparison import (
+    MOST_DIFFERENCES,
+    AcrossPrograms,
+    Comparison,
+    Difference,
+    SameProgram,
+)
 
 _ENTRIES = 6
 """Images of which the flight recorder of a replay has room: it tells what was at the end of a cycle of the
 bus cycle task, though other tasks come behind it."""
-MOST_DIFFERENCES = 20
-"""Variables that are named of the first cycle that differs."""
 
 
 class ReplayError(PlcError):
     """The recording cannot be replayed."""
-
-
-@dataclass(frozen=True, slots=True)
-class Difference:
-    """The first cycle whose variables are not as recorded."""
-
-    cycle: int
-    variables: tuple[tuple[str, str, str], ...]
-    """Name, recorded and replayed value; the first ones."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +64,7 @@ class Replayed:
     recorded: ExceptionReport | None
     fault: ExceptionReport | None
     difference: Difference | None = None
+    """On other code of the variables that both have: what its changes came to, no fault of the replay."""
     notes: tuple[str, ...] = ()
     """What could not be replayed as it was."""
     values: dict[str, str] = field(default_factory=dict)
@@ -76,6 +80,9 @@ class Replayed:
 
 
 def _what(report: ExceptionReport) -> tuple[object, ...]:
+    """What makes a fault the same one. Where a cycle was that took too long is a matter of time."""
+    if report.name == Fault.WATCHDOG.name:
+        return report.name, report.task.upper()
     return report.name, report.pou.upper(), report.line, report.task.upper()
 
 
@@ -96,7 +103,8 @@ def replay(
     if recording.parts != 1:
         raise ReplayError("the recorded image is so large that each cycle holds a part of it only")
     package = recording.code()
-    room = FlightSettings(memory=LEAST_MEMORY + _ENTRIES * package.image_size, scan_limit=MAX_IMAGE)
+    largest = max(package.image_size, code.image_size if code is not None else 0)
+    room = FlightSettings(memory=LEAST_MEMORY + _ENTRIES * largest, scan_limit=MAX_IMAGE)
     with LocalRuntime(package, start=False, flight=room, image_address=recording.image_address) as runtime:
         for expression in show:
             (code or package).symbols.resolve(expression)
@@ -116,6 +124,9 @@ class _Replay:
         self.forces = list(recording.forces)
         self.pointers = list(pointer_places(package.symbols))
         self.notes: list[str] = []
+        self.comparison: Comparison = SameProgram(
+            package.symbols, self.pointers, recording.image_address, self.application.image.address
+        )
         self.place: Callable[[Place], Place | None] = lambda place: place
 
     @property
@@ -143,7 +154,7 @@ class _Replay:
             faulted = self.runtime.state == "exception"
             if faulted:
                 break
-            if code is None and difference is None:
+            if difference is None and not self._cut_short(one):
                 difference = self._compare(one.cycle, image)
         if not faulted and until is None and self.recording.exception is not None:
             faulted = self._run_out()  # of a task that fails between two cycles of the bus cycle task
@@ -237,6 +248,7 @@ class _Replay:
             raise ReplayError(f"today's program cannot take over the recorded variables: {error}") from error
         old, new = self.package.symbols, code.symbols
         self.place = lambda place: find_again(old, new, place)
+        self.comparison = AcrossPrograms(self.package, code, self.pointers)
 
     # -- one cycle ---------------------------------------------------------------------------------------
 
@@ -304,44 +316,13 @@ class _Replay:
         application.tasks.collect()
         return self.runtime.state == "exception"
 
-    # -- the outcome -------------------------------------------------------------------------------------
+    def _cut_short(self, one: RecordedCycle) -> bool:
+        """Whether the recorded cycle ended in its fault, where other code goes on."""
+        last = self.recording.exception is not None and one is self.recording.cycles[-1]
+        return last and isinstance(self.comparison, AcrossPrograms)
 
     def _compare(self, cycle: int, image: bytes) -> Difference | None:
-        application, recording = self.application, self.recording
-        symbols, size = self.package.symbols, self.package.image_size
-        assert application.flight is not None
-        now = application.flight.newest()
-        then = image[:size]
-        if now == then:
+        recorder = self.application.flight
+        if recorder is None or recorder.parts != 1:
             return None
-        then, _ = moved_image(self.pointers, then, recording.image_address, application.image.address, now)
-        if now == then:
-            return None
-        names: dict[str, None] = {}
-        for at in differing(then, now):
-            names.setdefault(name_at(symbols, at))
-            if len(names) == MOST_DIFFERENCES:
-                break
-        rows = tuple((name, *_values(symbols, name, then, now)) for name in names)
-        return Difference(cycle, rows)
-
-
-def differing(one: bytes, other: bytes) -> Iterator[int]:
-    """Places at which two images of one size differ; whole blocks that are equal are passed over."""
-    block = 256
-    for start in range(0, len(one), block):
-        a, b = one[start : start + block], other[start : start + block]
-        if a != b:
-            yield from (start + at for at in range(len(a)) if a[at] != b[at])
-
-
-def _values(symbols: SymbolMap, name: str, then: bytes, now: bytes) -> tuple[str, str]:
-    try:
-        ref = symbols.resolve(name)
-    except SymbolError:
-        return "?", "?"
-    texts = [
-        symbols.format_literal(ref, symbols.decode(ref, image[ref.offset : ref.offset + ref.size]))
-        for image in (then, now)
-    ]
-    return texts[0], texts[1]
+        return self.comparison.difference(cycle, image, recorder.newest())

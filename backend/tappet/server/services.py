@@ -61,12 +61,12 @@ class Services:
     cams: CamCalculator
     debug: DebugVariants
     traces: Traces
+    test_runs: TestRuns
     evaluator: MeasurementEvaluator = field(default_factory=MeasurementEvaluator)
     views: ViewRegistry = field(default_factory=ViewRegistry)
     ended_sessions: EndedSessions = field(default_factory=EndedSessions)
     comparisons: Comparisons = field(default_factory=Comparisons)
     quotas: UserQuotas = field(default_factory=UserQuotas)
-    test_runs: TestRuns = field(default_factory=TestRuns)
     metrics: Metrics = field(default_factory=Metrics)
     first_account_token: str | None = field(default=None, repr=False)
     """Shown on the console at start-up while there is no account."""
@@ -187,6 +187,7 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
         cams=CamCalculator(objects),
         debug=DebugVariants(commissioning),
         traces=Traces(settings.data_dir / "recordings", settings.recordings_gib << 30, database),
+        test_runs=TestRuns(commissioning.builder),
     )
     services.audit_reserve.try_move(database)
     if database.read(accounts.count) == 0:

@@ -933,6 +933,8 @@ export interface paths {
          * Run Tests
          * @description Run the test suites of the application as it is stored, on simulated time, beside the server.
          *
+         *     Then the recordings of the flight recorder that are tests of it are replayed on its present program.
+         *
          *     The report becomes that of the last run; with `only`, the other tests keep their results there.
          */
         post: operations["run_tests"];
@@ -1618,6 +1620,26 @@ export interface paths {
          * @description Begin to show a scene, or join the view that shows it already.
          */
         post: operations["open_view"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/objects/{object_id}/view/{view_id}/cycle": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Show Past Cycle
+         * @description Move a view that was opened for a past cycle to another one.
+         */
+        put: operations["show_past_cycle"];
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -6108,6 +6130,12 @@ export interface components {
              */
             comment: string;
             /**
+             * Expects
+             * @default no_fault
+             * @enum {string}
+             */
+            expects: "no_fault" | "same_fault";
+            /**
              * Recording
              * @default
              */
@@ -8185,6 +8213,14 @@ export interface components {
             new: string;
         };
         /**
+         * PastCycleOrder
+         * @description Where in the past a view is to stand.
+         */
+        PastCycleOrder: {
+            /** Cycle */
+            cycle: number;
+        };
+        /**
          * PastValues
          * @description Values at the end of a past cycle, in the order asked for. Whether they were forced is not kept.
          */
@@ -9812,6 +9848,11 @@ export interface components {
          * @description How to show a scene.
          */
         SceneOrder: {
+            /**
+             * Cycle
+             * @description A past cycle of the flight recorder to show, in a view of one's own; null: the present.
+             */
+            cycle?: number | null;
             /**
              * Dark
              * @default false
@@ -16157,6 +16198,50 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["SceneAddress"];
                 };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    show_past_cycle: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                object_id: string;
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PastCycleOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description The request was refused */
             422: {

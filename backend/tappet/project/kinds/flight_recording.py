@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, StrictBool
 
@@ -29,7 +29,9 @@ class FlightRecordingData(Data):
     """Text of the file (`runtime.flight_recording`)."""
     comment: Text = ""
     tested: StrictBool = True
-    """Whether the tests of the application replay it: they pass when the fault no longer comes."""
+    """Whether the tests of the application replay it on its present program."""
+    expects: Literal["no_fault", "same_fault"] = "no_fault"
+    """When that test is good: no fault comes any more, or the recorded one comes again."""
 
 
 FLIGHT_RECORDING = ObjectKind(

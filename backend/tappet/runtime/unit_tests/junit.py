@@ -53,7 +53,7 @@ def _case(parent: ET.Element, suite: SuiteOutcome, test: TestOutcome) -> None:
     if test.outcome == "skipped":
         ET.SubElement(case, "skipped")
     for failure in test.failures:
-        _failure(case, "failure" if failure.is_assertion else "error", failure)
+        _failure(case, "failure" if failure.is_assertion or test.outcome == "failed" else "error", failure)
     if test.output:
         ET.SubElement(case, "system-out").text = _clean("\n".join(test.output))
 

@@ -1,8 +1,7 @@
-"""Opens recordings in place of runtimes, and replays them in a process of their own."""
+"""Opens recordings in place of runtimes, and replays them."""
 
 from __future__ import annotations
 
-import asyncio
 from contextlib import suppress
 from datetime import UTC, datetime
 
@@ -15,7 +14,7 @@ from tappet.project.model import APPLICATION
 from tappet.project.store import Store
 from tappet.runtime.flight_recording import FlightRecording, RecordingError, read_recording
 from tappet.runtime.operations.reports import exception_of
-from tappet.runtime.replay_process import COMMAND, LIMIT_S, ReplayOrder, ReplayResult, packed, unpacked
+from tappet.runtime.replay_process import ReplayOrder
 from tappet.server.builds.builder import Application, Built
 from tappet.server.builds.commissioning import Commissioning
 from tappet.server.builds.shapes import Relation
@@ -26,6 +25,7 @@ from tappet.server.flight.recording_shapes import (
     RecordingFacts,
     ReplayReport,
 )
+from tappet.server.flight.replay_process import run_replay
 from tappet.server.problems import Problem, not_found
 from tappet.server.runtimes.links import RuntimeRegistry
 
@@ -138,7 +138,7 @@ async def replay(
                 409, "build-errors", "The present program has errors; nothing can be replayed on it."
             )
         code = built.package
-    result = await _run(ReplayOrder(text, code))
+    result = await run_replay(ReplayOrder(text, code))
     difference = result.difference
     good = result.fault is None if today else result.same_fault and difference is None
     return ReplayReport(
@@ -154,24 +154,6 @@ async def replay(
         variables=[DifferentValue.of(row) for row in difference.variables] if difference else [],
         notes=result.notes,
     )
-
-
-async def _run(order: ReplayOrder) -> ReplayResult:
-    """In a process of its own, which is killed when nobody waits for it any more."""
-    child = await asyncio.create_subprocess_exec(
-        *COMMAND, stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE
-    )
-    try:
-        async with asyncio.timeout(LIMIT_S):
-            output, _ = await child.communicate(packed(order))
-    except TimeoutError:
-        return unpacked(b"", None)
-    finally:
-        if child.returncode is None:
-            with suppress(ProcessLookupError):
-                child.kill()
-            await child.wait()
-    return unpacked(output, child.returncode)
 
 
 def _time(timestamp_ns: int) -> datetime:

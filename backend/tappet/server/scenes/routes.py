@@ -7,9 +7,10 @@ from starlette.concurrency import run_in_threadpool
 
 from tappet.project.scene import Scene
 from tappet.server.dependencies import ServicesDep, StoreDep, Viewer
+from tappet.server.flight.shapes import Cycle
 from tappet.server.problems import Problem
 from tappet.server.routing import Router
-from tappet.server.scenes.service import open_scene
+from tappet.server.scenes.service import open_past_scene, open_scene, show_past_scene
 from tappet.server.settings import LOCAL_RUNTIME
 from tappet.server.shapes import Reply, Request
 
@@ -21,6 +22,16 @@ class SceneOrder(Request):
 
     runtime_id: str = Field(default=LOCAL_RUNTIME, description="Runtime whose values move the scene.")
     dark: bool = False
+    cycle: Cycle | None = Field(
+        default=None,
+        description="A past cycle of the flight recorder to show, in a view of one's own; null: the present.",
+    )
+
+
+class PastCycleOrder(Request):
+    """Where in the past a view is to stand."""
+
+    cycle: Cycle
 
 
 class SceneAddress(Reply):
@@ -38,5 +49,16 @@ async def open_view(
     if not isinstance(item.data, Scene):
         raise Problem(422, "no-scene", f"'{item.name}' is a {item.kind}; only a scene can be shown in 3D.")
     link = services.runtimes.get(body.runtime_id)
+    if body.cycle is not None:
+        view_id = await open_past_scene(services.views, item.data, link, body.cycle, dark=body.dark)
+        return SceneAddress(path=f"/views/{view_id}/")
     view_id = await open_scene(services.views, item.data, link, services.samplers(link), dark=body.dark)
     return SceneAddress(path=f"/views/{view_id}/")
+
+
+@router.put("/{view_id}/cycle", status_code=204)
+async def show_past_cycle(
+    project_id: str, object_id: str, view_id: str, body: PastCycleOrder, who: Viewer, services: ServicesDep
+) -> None:
+    """Move a view that was opened for a past cycle to another one."""
+    await show_past_scene(services.views, view_id, body.cycle)

@@ -9,20 +9,24 @@ from datetime import UTC, datetime
 from sqlalchemy import ColumnElement, Connection, delete, insert, select
 
 from tappet.runtime.unit_tests.order import order
-from tappet.server.builds.builder import Application
 from tappet.server.tables import test_runs
+from tappet.server.unit_tests.service import TestedApplication
 from tappet.server.unit_tests.shapes import TestReport, TestResult, TestRun
 
 
-def digest(application: Application) -> str:
+def digest(tested: TestedApplication) -> str:
     """Changes with everything that a test run takes of a project."""
+    application = tested.application
     content = order(application.name, application.sources, application.tasks, application.libraries)
-    return hashlib.blake2b(content, digest_size=32).hexdigest()
+    found = hashlib.blake2b(content, digest_size=32)
+    for test in tested.recordings:
+        found.update(f"\n{test.name}\n{test.same_fault}\n{test.text}".encode())
+    return found.hexdigest()
 
 
 def keep(
     db: Connection,
-    application: Application,
+    tested: TestedApplication,
     revision: int,
     username: str,
     report: TestReport,
@@ -30,26 +34,26 @@ def keep(
     only: Sequence[str] = (),
 ) -> None:
     """Replaces the last run; with `only`, its tests that were not chosen keep their results."""
-    before = read(db, application) if only else None
+    before = read(db, tested) if only else None
     if before is not None:
         report = with_others(before.report, report, only)
-    db.execute(delete(test_runs).where(_of(application)))
+    db.execute(delete(test_runs).where(_of(tested)))
     row = {
-        "project_id": application.project_id,
-        "application_id": application.application_id,
+        "project_id": tested.application.project_id,
+        "application_id": tested.application.application_id,
         "at": datetime.now(UTC),
         "username": username,
         "revision": revision,
-        "digest": digest(application),
+        "digest": digest(tested),
         "seconds": seconds,
         "report": report.model_dump(mode="json"),
     }
     db.execute(insert(test_runs).values(**row))
 
 
-def read(db: Connection, application: Application) -> TestRun | None:
+def read(db: Connection, tested: TestedApplication) -> TestRun | None:
     """The last run of the application, which is as it is stored now."""
-    row = db.execute(select(test_runs).where(_of(application))).mappings().one_or_none()
+    row = db.execute(select(test_runs).where(_of(tested))).mappings().one_or_none()
     if row is None:
         return None
     return TestRun(
@@ -57,13 +61,13 @@ def read(db: Connection, application: Application) -> TestRun | None:
         username=row["username"],
         revision=row["revision"],
         seconds=row["seconds"],
-        outdated=row["digest"] != digest(application),
+        outdated=row["digest"] != digest(tested),
         report=TestReport.model_validate(row["report"]),
     )
 
 
-def _of(application: Application) -> ColumnElement[bool]:
-    c = test_runs.c
+def _of(tested: TestedApplication) -> ColumnElement[bool]:
+    c, application = test_runs.c, tested.application
     return (c.project_id == application.project_id) & (c.application_id == application.application_id)
 
 

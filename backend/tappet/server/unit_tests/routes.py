@@ -6,12 +6,12 @@ import time
 
 from starlette.concurrency import run_in_threadpool
 
-from tappet.server.builds.builder import Application
 from tappet.server.dependencies import DatabaseDep, Engineer, ServicesDep, StoreDep, Viewer
 from tappet.server.problems import Problem
 from tappet.server.routing import Router
 from tappet.server.spoken import LanguageDep, in_language
 from tappet.server.unit_tests import last_runs
+from tappet.server.unit_tests.service import TestedApplication
 from tappet.server.unit_tests.shapes import TestOrder, TestReport, TestRun
 
 router = Router(prefix="/projects/{project_id}/applications/{application_id}/tests", tags=["tests"])
@@ -27,8 +27,8 @@ def last_run(
     language: LanguageDep,
 ) -> TestRun | None:
     """The last run of the tests of the application, whoever started it; null before the first one."""
-    application = Application.of(project_id, store.load(project_id), application_id)
-    return in_language(database.read(lambda db: last_runs.read(db, application)), language)
+    tested = TestedApplication.of(project_id, store.load(project_id), application_id)
+    return in_language(database.read(lambda db: last_runs.read(db, tested)), language)
 
 
 @router.post("")
@@ -42,15 +42,17 @@ async def run_tests(
 ) -> TestReport:
     """Run the test suites of the application as it is stored, on simulated time, beside the server.
 
+    Then the recordings of the flight recorder that are tests of it are replayed on its present program.
+
     The report becomes that of the last run; with `only`, the other tests keep their results there.
     """
     begun = time.perf_counter()
     info, project = await run_in_threadpool(services.store.snapshot, project_id)
-    application = await run_in_threadpool(Application.of, project_id, project, application_id)
-    report = await services.test_runs.run(application, body.filter, body.only)
+    tested = await run_in_threadpool(TestedApplication.of, project_id, project, application_id)
+    report = await services.test_runs.run(tested, body.filter, body.only)
     seconds = time.perf_counter() - begun
     await services.database.write_async(
-        lambda db: last_runs.keep(db, application, info.revision, who.username, report, seconds, body.only)
+        lambda db: last_runs.keep(db, tested, info.revision, who.username, report, seconds, body.only)
     )
     return in_language(report, language)
 

@@ -86,6 +86,10 @@ class ViewRegistry:
             self._views[view_id] = _View(server)
             return server
 
+    def server_of(self, view_id: str) -> ViewServer:
+        """The server of a running view; a 404 problem for another one."""
+        return self._get(view_id).server
+
     async def stop_view(self, view_id: str) -> None:
         """Ends a view; nothing happens when it does not run."""
         view = self._views.pop(view_id, None)

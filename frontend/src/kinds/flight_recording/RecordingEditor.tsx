@@ -13,7 +13,7 @@ import { objectIcon } from '@/project/kinds';
 import { Button } from '@/ui/Button';
 import { Empty, Failed, Loading } from '@/ui/Empty';
 import { Facts } from '@/ui/Facts';
-import { Checkbox, Field, TextArea } from '@/ui/Field';
+import { Checkbox, Field, Select, TextArea } from '@/ui/Field';
 import { guard } from '@/ui/notices';
 import { secondText } from '@/workbench/clock';
 import { saveBlob } from '@/workbench/downloadFile';
@@ -116,7 +116,7 @@ function Held({ projectId, objectId, draft, data }: HeldProps) {
         </div>
       </Section>
       <Replay projectId={projectId} objectId={objectId} />
-      <Section title={t('recording.comment')}>
+      <Section title={t('recording.test')}>
         <Checkbox
           checked={data.tested}
           disabled={draft.readOnly !== null}
@@ -124,6 +124,25 @@ function Held({ projectId, objectId, draft, data }: HeldProps) {
         >
           {t('recording.tested')}
         </Checkbox>
+        <Field label={t('recording.expects')}>
+          {(attributes) => (
+            <Select
+              {...attributes}
+              className={styles.expects}
+              value={data.expects}
+              disabled={draft.readOnly !== null || !data.tested}
+              choices={[
+                { value: 'no_fault', text: t('recording.expects.no_fault') },
+                {
+                  value: 'same_fault',
+                  text: t('recording.expects.same_fault'),
+                  disabled: held.exception === null,
+                },
+              ]}
+              onValue={(expects) => draft.change({ ...data, expects })}
+            />
+          )}
+        </Field>
         <Field label={t('recording.comment')}>
           {(attributes) => (
             <TextArea
@@ -184,6 +203,9 @@ function Outcome({ report }: { report: Report }) {
             ? t('recording.same', { cycle: report.last_cycle })
             : t('recording.differs', { cycle: report.first_difference })}
         </p>
+      )}
+      {report.problem === null && report.today && report.first_difference !== null && (
+        <p>{t('recording.differsToday', { cycle: report.first_difference })}</p>
       )}
       {report.fault && !report.today && report.same_fault && <p>{t('recording.sameFault')}</p>}
       {report.fault && <Fault exception={report.fault} />}

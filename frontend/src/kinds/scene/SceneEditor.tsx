@@ -1,4 +1,4 @@
-import { useEffect, useRef } from 'react';
+import { useCallback, useRef, useState } from 'react';
 import { useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
 import { ofKind } from '@/api/objects';
@@ -9,16 +9,18 @@ import { objectIcon } from '@/project/kinds';
 import type { EditorProps } from '@/project/editorProps';
 import { useOnline } from '@/workbench/onlineSession';
 import { Empty, Failed, Loading } from '@/ui/Empty';
-import { passKeysOn } from './frameKeys';
-import { FrameLimit } from './frameLimit';
+import { PastFrame } from './PastFrame';
 import styles from './Scene.module.css';
-import { runtimeOf } from './model';
+import { pastCycleOf, runtimeOf } from './model';
+import { ViewFrame } from './ViewFrame';
+import type { ViserWindow } from './viserWindow';
 
-/** A 3D scene of the machine, drawn by the server and moved by the values of the runtime. */
+/** A 3D scene of the machine, drawn by the server and moved by the values of the runtime, those of a past cycle too. */
 export default function SceneEditor({ projectId, objectId, visible }: EditorProps) {
   const t = useText();
   const dark = usePreferences((state) => state.shown === 'dark');
   const runtimeId = useOnline((state) => runtimeOf(Object.values(state.sessions)));
+  const cycle = useOnline((state) => pastCycleOf(Object.values(state.sessions)));
   const object = useObject(projectId, objectId, ofKind('scene'));
   const revision = object.data?.revision;
   const view = useQuery({
@@ -32,38 +34,38 @@ export default function SceneEditor({ projectId, objectId, visible }: EditorProp
     staleTime: Infinity,
     retry: false,
   });
-  const limit = useRef<FrameLimit | null>(null);
-  useEffect(() => {
-    limit.current?.pause(!visible);
-  }, [visible]);
-  useEffect(() => {
-    const yieldToInput = () => limit.current?.yieldToInput();
-    const inputs = ['keydown', 'pointerdown', 'wheel'];
-    inputs.forEach((input) => document.addEventListener(input, yieldToInput, { capture: true, passive: true }));
-    return () => {
-      inputs.forEach((input) => document.removeEventListener(input, yieldToInput, { capture: true }));
-      limit.current?.dispose();
-    };
-  }, []);
-  const loaded = (frame: HTMLIFrameElement) => {
-    const view = frame.contentWindow;
-    limit.current?.dispose();
-    limit.current = view === null ? null : new FrameLimit(view);
-    limit.current?.pause(!visible);
-    if (view !== null) passKeysOn(view, frame);
-  };
+  const live = useRef<ViserWindow | null>(null);
+  const liveView = useCallback(() => live.current, []);
+  const [lookedBack, setLookedBack] = useState(false);
+  if (cycle !== null && !lookedBack) setLookedBack(true);
   const error = object.error ?? view.error;
   if (error) return <Failed error={error} retry={() => void view.refetch()} />;
   if (object.data?.data.elements.length === 0)
     return <Empty icon={objectIcon('scene')} title={t('scene.empty')} text={t('scene.emptyText')} />;
   if (!view.data) return <Loading />;
+  const title = object.data?.name ?? t('scene.title');
   return (
-    <iframe
-      className={styles.view}
-      src={view.data.path}
-      title={object.data?.name ?? t('scene.title')}
-      onLoad={(event) => loaded(event.currentTarget)}
-      data-testid="scene-view"
-    />
+    <div className={styles.views}>
+      <ViewFrame
+        src={view.data.path}
+        title={title}
+        shown={visible && cycle === null}
+        testId="scene-view"
+        onDrawn={(drawn) => (live.current = drawn)}
+      />
+      {lookedBack && (
+        <PastFrame
+          key={`${runtimeId} ${String(revision)} ${String(dark)}`}
+          projectId={projectId}
+          objectId={objectId}
+          runtimeId={runtimeId}
+          dark={dark}
+          title={title}
+          visible={visible}
+          cycle={cycle}
+          live={liveView}
+        />
+      )}
+    </div>
   );
 }

@@ -1,7 +1,7 @@
 /** The debugger follows the runtimes that one is logged in to: it shows where a task halts. */
 import { notifyError } from '@/ui/notices';
 import { showPanel } from '../docking/dock';
-import { useOnline } from '../onlineSession';
+import { isRecording, useOnline } from '../onlineSession';
 import { refreshDebugger, showStack } from './acts';
 import { switchFlow } from './flow';
 import { debuggerGone, newHalts, useDebugger } from './state';
@@ -12,7 +12,9 @@ const asked = new Map<string, number>();
 export function followDebugger(): () => void {
   return useOnline.subscribe(({ sessions }) => {
     const runtimes = new Map(
-      Object.values(sessions).flatMap(({ runtimeId, runtime }) => (runtime === null ? [] : [[runtimeId, runtime]])),
+      Object.values(sessions).flatMap(({ runtimeId, runtime }) =>
+        runtime === null || isRecording(runtimeId) ? [] : [[runtimeId, runtime]],
+      ),
     );
     for (const runtimeId of asked.keys())
       if (!runtimes.has(runtimeId)) {

@@ -7,6 +7,7 @@ import { millisecondText } from '../clock';
 import { saveBlob } from '../downloadFile';
 import { SeverityFilter } from '../messages/SeverityFilter';
 import { SeverityIcon } from '../messages/SeverityIcon';
+import { isRecording } from '../onlineSession';
 import { runCommand } from '../run';
 import { useToggleSet } from '@/ui/toggleSet';
 import { Button, IconButton } from '@/ui/Button';
@@ -22,6 +23,8 @@ import { useActiveSession } from './session';
 export default function LogPanel() {
   const t = useText();
   const session = useActiveSession();
+  if (isRecording(session?.runtimeId))
+    return <Empty icon={ScrollText} title={t('log.recording')} text={t('log.recordingText')} />;
   if (session)
     return (
       <RuntimeLog
