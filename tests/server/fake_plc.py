@@ -288,9 +288,13 @@ class FakePlc:
             raise PlcError("the flight recorder holds no cycle: the application has not run")
         return self.recording
 
-    def flight_freeze(self, on: bool) -> FlightStatus:
+    def flight_freeze(self, on: bool, owner: str = "", lease_s: float | None = None) -> FlightStatus:
         self.frozen = on
         return self.flight_status()
+
+    def flight_renew(self, owner: str, lease_s: float) -> None:
+        if not self.frozen:
+            raise PlcError("the flight recorder is not frozen any more by who wants to keep it so")
 
     def tasks(self) -> list[TaskStatistics]:
         times = (7, 8, 1500, 1400, 1000, 2000, *[1] * 4, 0, 0, 2048)

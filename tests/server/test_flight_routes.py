@@ -68,6 +68,20 @@ def test_freezing_is_audited_and_for_operators(
     assert actions[:2] == ["flight-record", "flight-freeze"]
 
 
+def test_a_page_renews_its_freeze_without_a_row_in_the_audit_log(
+    admin: TestClient, as_role: dict[str, TestClient], url: str, plc: FakePlc
+) -> None:
+    _run(plc, 3)
+    order = {"owner": "page 1", "lease_s": 60}
+    assert as_role["operator"].post(f"{url}/renew", json=order).status_code == 409
+    assert admin.post(f"{url}/freeze", json={"on": True, **order}).json()["frozen"] is True
+    assert as_role["operator"].post(f"{url}/renew", json=order).status_code == 204
+    assert as_role["viewer"].post(f"{url}/renew", json=order).status_code == 403
+    actions = [entry["action"] for entry in admin.get("/api/v1/audit").json()]
+    assert [action for action in actions if "flight" in action] == ["flight-freeze"]
+    assert admin.post(f"{url}/freeze", json={"on": True, "lease_s": 0}).status_code == 422
+
+
 def test_without_runtime(admin: TestClient, url: str, plc: FakePlc) -> None:
     assert admin.get("/api/v1/runtimes/nobody/flight").status_code == 404
     plc.lose()

@@ -57,6 +57,7 @@ OF_VIEWERS = {
     "/api/v1/projects/{project_id}/comparisons/files",
     "/api/v1/projects/{project_id}/comparisons/{comparison_id}",
     "/api/v1/projects/{project_id}/objects/{object_id}/view",
+    "/api/v1/projects/{project_id}/objects/{object_id}/view/{view_id}/cycle",
     "/api/v1/projects/{project_id}/recipes/{definition_id}/file",
     "/api/v1/projects/{project_id}/recordings/{object_id}/open",
     "/api/v1/projects/{project_id}/search",

@@ -12,6 +12,7 @@ from tappet.runtime.application import LoadedApplication
 from tappet.runtime.errors import NoApplicationError, NoTraceError, OtherApplicationError, PlcError
 from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.flight import FlightRecorder, FlightStatus
+from tappet.runtime.flight_holds import ANYBODY
 from tappet.runtime.flight_recording import FlightRecording
 from tappet.runtime.flight_save import take_recording
 from tappet.runtime.forces import NOBODY, Force, Origin, PlacedValue
@@ -256,12 +257,17 @@ class ApplicationAccess:
         """Why the application is in the state exception; the life cycle knows it."""
         return None
 
-    def flight_freeze(self, on: bool) -> FlightStatus:
+    def flight_freeze(self, on: bool, owner: str = ANYBODY, lease_s: float | None = None) -> FlightStatus:
         """Keep what is recorded, or record again; an exception freezes until the next start after a reset."""
         with self._lock:
             recorder = self._need_flight()
-            recorder.freeze(on)
+            recorder.freeze(on, owner, lease_s)
             return recorder.status()
+
+    def flight_renew(self, owner: str, lease_s: float) -> None:
+        """Keep it further for an owner; PlcError when it keeps it no more."""
+        with self._lock:
+            self._need_flight().renew_freeze(owner, lease_s)
 
     # -- monitoring --------------------------------------------------------------------------------------
 

@@ -415,7 +415,14 @@ class LoadedApplication(ApplicationCode):
         if not self.contexts.tasks or self.halted:
             self.executive.apply_values(values.address)
 
-    def log_failed_monitoring(self, log: Logbook) -> None:
+    def look_after(self, log: Logbook) -> None:
+        """What is due beside the cycles; called some times a second."""
+        self.log.collect(log)
+        self._log_failed_monitoring(log)
+        if self.flight is not None:
+            self.flight.let_go()
+
+    def _log_failed_monitoring(self, log: Logbook) -> None:
         """Note the watched properties whose Get has ended in an exception; the application runs on."""
         self.sampled.ask_for_watched()
         for offset, size in self.watched.failed():

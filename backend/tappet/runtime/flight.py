@@ -13,8 +13,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
+from tappet.runtime.errors import PlcError
 from tappet.runtime.executive.records import Record
 from tappet.runtime.flight_deltas import BLOCK, ENTRY_SIZE, Entry, FlightError, rebuild, unpack_entries
+from tappet.runtime.flight_holds import ANYBODY, FlightHolds
 from tappet.runtime.image import Image
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.posix import map_memory, pages, read_memory
@@ -136,6 +138,7 @@ class FlightRecorder:
         self._size = 0
         self._renew = True
         self._last: tuple[int, bytes] | None = None
+        self.holds = FlightHolds()
         self.relocate()
 
     # -- life cycle --------------------------------------------------------------------------------------
@@ -156,7 +159,7 @@ class FlightRecorder:
         record["first"] = record["next"]  # numbers continue: an entry is never mistaken for another one
         record["head"] = 0
         record["skipped"] = self.settings.divider
-        record["frozen"] = 0
+        self._thaw()
         ctypes.memmove(self._shadow.address, self._image.address, self._size)
         self._last = None
         self._renew = False
@@ -170,11 +173,33 @@ class FlightRecorder:
         """Record again; before the programs start."""
         if self._renew:
             self.relocate()
+        self._thaw()
+
+    def _thaw(self) -> None:
+        self.holds.clear()
         self.record["frozen"] = 0
 
-    def freeze(self, on: bool) -> None:
-        """Stop recording, so that nothing kept is dropped any more, or continue."""
-        self._executive.store_flag(self.record.place("frozen"), int(on))
+    def freeze(self, on: bool, owner: str = ANYBODY, lease_s: float | None = None) -> None:
+        """Stop recording, so that nothing kept is dropped any more, or continue when no other owner holds
+        it. After `lease_s` it continues by itself, unless that was renewed."""
+        if on:
+            self.holds.take(owner, lease_s)
+        else:
+            self.holds.release(owner)
+        self._follow_holds()
+
+    def renew_freeze(self, owner: str, lease_s: float) -> None:
+        """Hold it further; PlcError when it was let go."""
+        if not self.holds.renew(owner, lease_s):
+            raise PlcError("the flight recorder is not frozen any more by who wants to keep it so")
+
+    def let_go(self) -> None:
+        """Continue when the last owner has not renewed in time. Called again and again."""
+        if self.holds.lapse():
+            self._follow_holds()
+
+    def _follow_holds(self) -> None:
+        self._executive.store_flag(self.record.place("frozen"), int(bool(self.holds)))
         self._await_boundary()
 
     def close(self) -> None:

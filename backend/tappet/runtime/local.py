@@ -310,9 +310,9 @@ class LocalRuntime:
         ref = self.package.symbols.resolve(path)
         return self.package.symbols.decode(ref, self.plc.flight_read(cycle, [(ref.offset, ref.size)])[0])
 
-    def flight_freeze(self, on: bool) -> FlightStatus:
+    def flight_freeze(self, on: bool, owner: str = "", lease_s: float | None = None) -> FlightStatus:
         """Keep what is recorded, or record again."""
-        return self.plc.flight_freeze(on)
+        return self.plc.flight_freeze(on, owner, lease_s)
 
     def statistics(self) -> list[TaskStatistics]:
         """Task monitoring."""

@@ -137,8 +137,7 @@ class SoftPlc(ApplicationAccess):
         with self._lock:
             if self.application is not None:
                 self.application.tasks.collect()
-                self.application.log.collect(self.log)
-                self.application.log_failed_monitoring(self.log)
+                self.application.look_after(self.log)
             self.debugger.poll()
             state = self.state
             if state == "run":

@@ -2645,6 +2645,9 @@ export interface paths {
         /**
          * Flight Freeze
          * @description Keep what is recorded, or record again. An exception stays frozen until it is reset.
+         *
+         *         Each owner holds it for himself: it records again when the last one lets go. Without an owner, letting go
+         *         is for all.
          */
         post: operations["flight_freeze"];
         delete?: never;
@@ -2667,6 +2670,26 @@ export interface paths {
          * @description Read values at the end of a past cycle. An unknown expression carries its own error.
          */
         post: operations["read_flight"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/flight/renew": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Flight Renew
+         * @description Keep what is recorded for an owner that has frozen it; refused when it records again.
+         */
+        post: operations["flight_renew"];
         delete?: never;
         options?: never;
         head?: never;
@@ -6364,9 +6387,19 @@ export interface components {
         /**
          * FreezeFlight
          * @description Keep what is recorded, or record again. An exception stays frozen until it is reset.
+         *
+         *         Each owner holds it for himself: it records again when the last one lets go. Without an owner, letting go
+         *         is for all.
          */
         FreezeFlight: {
+            /** @default null */
+            lease_s?: number | null;
             on: boolean;
+            /**
+             * @description Who looks back, such as a page of a browser.
+             * @default
+             */
+            owner?: string;
         };
         /**
          * GainProposal
@@ -9232,6 +9265,16 @@ export interface components {
          * @enum {string}
          */
         Relation: "same" | "online_change" | "download" | "foreign" | "empty";
+        /**
+         * RenewFlight
+         * @description Keep what is recorded for an owner that has frozen it; refused when it records again.
+         */
+        RenewFlight: {
+            /** @description Seconds. */
+            lease_s: number;
+            /** @description Who looks back, such as a page of a browser. */
+            owner: string;
+        };
         /**
          * Repetition
          * @description The element stands once for each index from `first` to `last`.
@@ -18725,6 +18768,48 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["PastValues"];
                 };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    flight_renew: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RenewFlight"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description The request was refused */
             422: {

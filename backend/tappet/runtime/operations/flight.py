@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 from msgspec import Meta, Struct
 
 from tappet.runtime.flight import FlightStatus
+from tappet.runtime.flight_holds import ANYBODY
 from tappet.runtime.flight_recording import write_recording
 from tappet.runtime.operations.declaration import Count, Fact, Operation, Places, Rest
 from tappet.runtime.operations.instants import Instant, instant_of
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from tappet.runtime.plc import SoftPlc
 
 _TAG = "flight recorder"
+Owner = Annotated[str, Meta(max_length=100, description="Who looks back, such as a page of a browser.")]
+Lease = Annotated[int, Meta(ge=1, le=86_400, description="Seconds.")]
 
 
 class FlightEntries(Struct, frozen=True):
@@ -129,7 +132,11 @@ class SaveFlight(Operation[str], frozen=True):
 
 
 class FreezeFlight(Operation[FlightStatus], frozen=True):
-    """Keep what is recorded, or record again. An exception stays frozen until it is reset."""
+    """Keep what is recorded, or record again. An exception stays frozen until it is reset.
+
+    Each owner holds it for himself: it records again when the last one lets go. Without an owner, letting go
+    is for all.
+    """
 
     op: ClassVar[str] = "flight_freeze"
     rest: ClassVar[Rest | None] = Rest(
@@ -137,7 +144,23 @@ class FreezeFlight(Operation[FlightStatus], frozen=True):
         lambda order: Fact("flight-freeze" if order.on else "flight-record"), state_of, _TAG,
     )  # fmt: skip
     on: bool
+    owner: Owner = ANYBODY
+    lease_s: Lease | None = None
+    """It records again by itself after so many seconds, unless that is renewed; null: never."""
 
     def run(self, plc: SoftPlc) -> FlightStatus:
         """The status afterwards."""
-        return plc.flight_freeze(self.on)
+        return plc.flight_freeze(self.on, self.owner, self.lease_s)
+
+
+class RenewFlight(Operation[None], frozen=True):
+    """Keep what is recorded for an owner that has frozen it; refused when it records again."""
+
+    op: ClassVar[str] = "flight_renew"
+    rest: ClassVar[Rest | None] = Rest("POST", "/flight/renew", "operator", None, tag=_TAG)
+    owner: Owner
+    lease_s: Lease
+
+    def run(self, plc: SoftPlc) -> None:
+        """Nothing is told."""
+        plc.flight_renew(self.owner, self.lease_s)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any, Protocol, TypeVar
@@ -32,6 +33,8 @@ from tappet.server.dap.image_variables import ImageVariables
 from tappet.server.dap.program_files import Texts
 
 T = TypeVar("T")
+_LOOKING_BACK_S = 3600
+"""The flight recorder records again behind this time, when the session has died."""
 ReadText = Callable[[str], str | None]
 """A text that is no file of the client, by its reference."""
 
@@ -67,6 +70,7 @@ class RuntimeDebuggee:
         self._lines: dict[str, list[int]] = {}
         self._data: list[int] = []
         self._last_log = 0
+        self._owner = f"debugger-{secrets.token_hex(8)}"
         self._ends: list[Callable[[], Awaitable[None]]] = []
         self.tasks: Sequence[str] = tuple(task.name for task in package.tasks)
 
@@ -243,12 +247,12 @@ class RuntimeDebuggee:
 
     async def past(self) -> Sequence[PastCycle]:
         """The cycles that the flight recorder keeps; it stops."""
-        await self._call(FreezeFlight(True))
+        await self._call(FreezeFlight(True, self._owner, _LOOKING_BACK_S))
         return [PastCycle(cycle, stamp) for cycle, stamp in await self._call(ListFlightCycles())]
 
     async def live(self) -> None:
         """Record again."""
-        await self._call(FreezeFlight(False))
+        await self._call(FreezeFlight(False, self._owner))
 
     async def exception(self) -> str | None:
         """What ended the application."""

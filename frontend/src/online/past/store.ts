@@ -39,8 +39,27 @@ function change(runtimeId: string, values: Partial<TimeBarState>): void {
 
 const of = (runtimeId: string) => ({ params: { path: { runtime_id: runtimeId } } });
 
+/** This page, among all that may look back at the same runtime. */
+const OWNER = `page-${Array.from(crypto.getRandomValues(new Uint32Array(2)), (part) => part.toString(36)).join('')}`;
+/** A page that is gone lets recording go on after this time. Browsers slow the timers of hidden pages to one a minute. */
+const LEASE_S = 180;
+const RENEW_MS = 30_000;
+
 function freeze(runtimeId: string, on: boolean) {
-  return api.post('/api/v1/runtimes/{runtime_id}/flight/freeze', { ...of(runtimeId), body: { on } });
+  const body = { on, owner: OWNER, lease_s: on ? LEASE_S : null };
+  return api.post('/api/v1/runtimes/{runtime_id}/flight/freeze', { ...of(runtimeId), body });
+}
+
+/** Keeps what is frozen for this page, as long as it is there. */
+export function renewFreezes(): void {
+  for (const [runtimeId, bar] of Object.entries(useTimeBars.getState().bars))
+    if (bar.frozen)
+      void api
+        .post('/api/v1/runtimes/{runtime_id}/flight/renew', {
+          ...of(runtimeId),
+          body: { owner: OWNER, lease_s: LEASE_S },
+        })
+        .catch(() => undefined); // the bar says what is not kept when one gets there
 }
 
 /**
@@ -50,7 +69,7 @@ function freeze(runtimeId: string, on: boolean) {
 export async function openTimeBar({ runtimeId, runtime }: OnlineSession): Promise<void> {
   const running = runtime?.state === 'run';
   let state = await api.get('/api/v1/runtimes/{runtime_id}/flight', of(runtimeId));
-  if (running && !state.frozen) state = await freeze(runtimeId, true);
+  if (running) state = await freeze(runtimeId, true);
   const rows = await api.get('/api/v1/runtimes/{runtime_id}/flight/cycles', of(runtimeId));
   if (rows.length === 0) {
     if (running) await freeze(runtimeId, false);
@@ -213,7 +232,8 @@ export function setSpeed(runtimeId: string, speed: number): void {
 /** What is kept begins anew when the programs run again; a bar of a session that has ended goes away. */
 export function followTimeBars(): () => void {
   onLooked(looked);
-  return useOnline.subscribe(({ sessions }, before) => {
+  const renewing = setInterval(renewFreezes, RENEW_MS);
+  const unsubscribe = useOnline.subscribe(({ sessions }, before) => {
     for (const runtimeId of Object.keys(useTimeBars.getState().bars)) {
       const now = Object.values(sessions).find((session) => session.runtimeId === runtimeId);
       const then = Object.values(before.sessions).find((session) => session.runtimeId === runtimeId);
@@ -225,4 +245,8 @@ export function followTimeBars(): () => void {
       else if (now?.lostSince != null && then?.lostSince === null) lostPast(runtimeId);
     }
   });
+  return () => {
+    clearInterval(renewing);
+    unsubscribe();
+  };
 }
