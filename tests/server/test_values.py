@@ -144,21 +144,42 @@ def test_force_and_unforce(admin: TestClient, url: str, plc: FakePlc) -> None:
     assert {e["subject"] for e in entries} == {"PLC_PRG.nCount", "PLC_PRG.bStart", "%QX0.3"}
 
 
-def test_a_force_says_where_it_comes_from(admin: TestClient, url: str, plc: FakePlc) -> None:
-    """WAT-08 and more: who, from where, when, and what the variable held before."""
+@pytest.mark.parametrize(
+    ("agent", "program"),
+    [
+        ("curl/8.5.0", "curl/8.5.0"),
+        ("line-supervisor/2.1 (shift 3) python-httpx/0.28", "line-supervisor/2.1"),
+        ("Robot", "Robot"),
+        ("<b>bold</b>", ""),
+        ("x" * 300, ""),
+        ("", ""),
+    ],
+)
+def test_a_force_says_where_it_comes_from(
+    admin: TestClient, as_role: dict[str, TestClient], url: str, plc: FakePlc, agent: str, program: str
+) -> None:
+    """WAT-08 and more: who, by what, from where, when, and what the variable held before."""
     begun = datetime.now(UTC)
-    for source, path, value in ((None, "PLC_PRG.nCount", 77), ("workbench", "PLC_PRG.bStart", True)):
-        order = {"values": [{"expression": path, "value": value}]} | ({"source": source} if source else {})
-        assert admin.post(f"{url}/values/force", json=order).status_code == 200
+    script = as_role["operator"]
+    for client, path, value in ((script, "PLC_PRG.nCount", 77), (admin, "PLC_PRG.bStart", True)):
+        order = {"values": [{"expression": path, "value": value}]}
+        answer = client.post(f"{url}/values/force", json=order, headers={"User-Agent": agent})
+        assert answer.status_code == 200, answer.text
     found = {v["expression"]: v for v in admin.get(f"{url}/forces").json()["values"]}
     (name,) = {v["user"] for v in found.values()}
     assert name in {e["username"] for e in admin.get("/api/v1/audit").json() if e["action"] == "force"}
-    assert (found["PLC_PRG.nCount"]["source"], found["PLC_PRG.bStart"]["source"]) == ("api", "workbench")
-    assert found["PLC_PRG.nCount"]["literal"] == "77"
+    by_script, by_browser = found["PLC_PRG.nCount"], found["PLC_PRG.bStart"]
+    assert (by_script["source"], by_script["program"]) == ("api", program)
+    assert (by_browser["source"], by_browser["program"]) == ("workbench", "")
+    assert (by_script["address"], by_browser["address"]) == ("testclient", "127.0.0.1")
+    assert by_script["literal"] == "77"
     for value in found.values():
         assert begun <= datetime.fromisoformat(value["at"]) <= datetime.now(UTC)
-    wrong = {"values": [{"expression": "PLC_PRG.nCount", "value": 1}], "source": "somewhere"}
-    assert admin.post(f"{url}/values/force", json=wrong).status_code == 422
+
+
+def test_an_order_does_not_say_itself_where_it_comes_from(admin: TestClient, url: str) -> None:
+    order = {"values": [{"expression": "PLC_PRG.nCount", "value": 1}], "source": "workbench"}
+    assert admin.post(f"{url}/values/force", json=order).status_code == 422
 
 
 def test_operators_write_and_viewers_do_not(

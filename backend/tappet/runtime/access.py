@@ -17,7 +17,7 @@ from tappet.runtime.flight_recording import FlightRecording
 from tappet.runtime.flight_save import take_recording
 from tappet.runtime.forces import NOBODY, Force, Origin, PlacedValue
 from tappet.runtime.logbook import Logbook
-from tappet.runtime.places import path_at
+from tappet.runtime.places import Place, path_at
 from tappet.runtime.recorder import Recorder, RecorderSpec
 from tappet.runtime.sampled import TraceSpec, TraceStatus
 from tappet.runtime.source_archive import SourceInfo, SourceNote, SourceStore
@@ -29,6 +29,15 @@ from tappet.runtime.trace_record import Command, TraceFrames
 _PATIENCE_S = 0.5
 """How long reading waits for a property that is monitored by a call."""
 _MOMENT_S = 0.002
+
+
+_NAMED = 5
+"""So many variables does a line of the log name."""
+
+
+def _some(symbols: SymbolMap, places: Sequence[Place]) -> str:
+    names = [path_at(symbols, place) or f"offset {place.offset}" for place in places[:_NAMED]]
+    return ", ".join(names) + (f" (+{len(places) - _NAMED})" if len(places) > _NAMED else "")
 
 
 class ApplicationAccess:
@@ -120,7 +129,10 @@ class ApplicationAccess:
     def force(self, values: Sequence[PlacedValue], origin: Origin = NOBODY, code_id: str = "") -> None:
         """Hold variables at values until released. OtherApplicationError as in `write`."""
         with self._lock:
-            self._need(code_id).force(values, origin)
+            application = self._need(code_id)
+            application.force(values, origin)
+            names = _some(application.package.symbols, [value.place for value in values])
+            self.log.add("info", "forces", f"forced by {origin}: {names}")
             self._notify("forces")
 
     def unforce(
@@ -128,8 +140,11 @@ class ApplicationAccess:
     ) -> int:
         """Release forces, all with None; returns how many. OtherApplicationError as in `write`."""
         with self._lock:
-            released = self._need(code_id).unforce(keys, restore=restore)
+            application = self._need(code_id)
+            released = application.unforce(keys, restore=restore)
             if released:
+                names = _some(application.package.symbols, [force.value.place for force in released])
+                self.log.add("info", "forces", f"forces released: {names}")
                 self._notify("forces")
             return len(released)
 

@@ -73,9 +73,17 @@ class Origin:
 
     user: str = ""
     source: str = ""
-    """Of the order: the workbench, the API, a command."""
+    """Of the order: `workbench`, `api`, or `wire` for a client of the runtime itself; empty: not known."""
     at_ns: int = 0
     """Unix time."""
+    program: str = ""
+    """What a script calls itself."""
+    address: str = ""
+
+    def __str__(self) -> str:
+        """As the log tells it: `anna, workbench, 10.0.0.7`."""
+        parts = (self.user, self.source, self.program, self.address)
+        return ", ".join(part for part in parts if part) or "unknown"
 
 
 NOBODY = Origin()

@@ -6291,25 +6291,16 @@ export interface components {
             subkind: string | null;
         };
         /**
-         * ForceOrder
-         * @description Values to force; all or none.
-         */
-        ForceOrder: {
-            /**
-             * Source
-             * @description What the order comes from; the list of forces shows it.
-             * @default api
-             * @enum {string}
-             */
-            source?: "workbench" | "api";
-            /** Values */
-            values: components["schemas"]["NewValue"][];
-        };
-        /**
          * ForcedValue
          * @description A forced variable with the value it is held at, and where the force comes from.
          */
         ForcedValue: {
+            /**
+             * Address
+             * @description Network address of the browser or script.
+             * @default
+             */
+            address: string;
             /**
              * At
              * @description When it got this value.
@@ -6335,8 +6326,14 @@ export interface components {
              */
             literal: string | null;
             /**
+             * Program
+             * @description What a script calls itself, such as `curl/8.5.0`.
+             * @default
+             */
+            program: string;
+            /**
              * Source
-             * @description workbench or api; empty where it is not known.
+             * @description workbench, api, or wire (a client of the runtime itself); empty where it is not known.
              * @default
              */
             source: string;
@@ -20335,7 +20332,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["ForceOrder"];
+                "application/json": components["schemas"]["WriteOrder"];
             };
         };
         responses: {

@@ -16,6 +16,7 @@ import { useGridSelection, type GridSelection } from '@/ui/grid/useGridSelection
 import type { MenuEntry } from '@/ui/Menu';
 import { ContextMenu } from '@/ui/Menu';
 import type { OnlineSession } from '@/workbench/onlineSession';
+import { fillTransfer } from '@/workbench/expressionDrag';
 import type { NumberFormat } from '@/text/settings';
 import { ComputedCell } from './ComputedCell';
 import { copyChosen } from './copyRows';
@@ -273,15 +274,10 @@ function OnScreen({ runtimeId, rows, ref }: OnScreenProps) {
   return null;
 }
 
-/** The kind of what is dragged between watch lists, tables and editors. */
-export const EXPRESSION_MIME = 'application/x-tappet-expression';
-
 function drag(event: DragEvent, rows: readonly OnlineRow[], index: number, selection: GridSelection): void {
   const many = selection.selected.has(index) ? [...selection.selected].sort((a, b) => a - b) : [index];
   const expressions = many.flatMap((i) => rows[i]?.expression ?? []).filter((expression) => expression !== '');
-  event.dataTransfer.setData(EXPRESSION_MIME, JSON.stringify(expressions));
-  event.dataTransfer.setData('text/plain', expressions.join('\n'));
-  event.dataTransfer.effectAllowed = 'copy';
+  fillTransfer(event.dataTransfer, expressions);
 }
 
 function hint(t: ReturnType<typeof useText>, row: OnlineRow | undefined, column: string): string | undefined {

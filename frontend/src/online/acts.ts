@@ -28,8 +28,7 @@ export async function writePrepared(runtimeId: string): Promise<void> {
 export async function forcePrepared(runtimeId: string): Promise<void> {
   const values = takenValues(runtimeId);
   if (values.length === 0) return;
-  const { params, body } = order(runtimeId, values);
-  await api.post('/api/v1/runtimes/{runtime_id}/values/force', { params, body: { ...body, source: 'workbench' } });
+  await api.post('/api/v1/runtimes/{runtime_id}/values/force', order(runtimeId, values));
   clearPrepared(runtimeId, values);
 }
 

@@ -1,5 +1,5 @@
-/** Registers the online room: channels follow the logins, watch lists follow the project; panels and commands. */
-import { Eye, LockKeyhole } from 'lucide-react';
+/** Registers the online room: channels follow the logins; panels and commands. */
+import { LockKeyhole } from 'lucide-react';
 import { useOnline } from '@/workbench/onlineSession';
 import { registerBar } from '@/workbench/bars';
 import { newExceptions } from '@/workbench/online/exception';
@@ -10,7 +10,7 @@ import { followSessions } from './connections';
 import { registerPastCommands } from './past/commands';
 import { followTimeBars, openTimeBar } from './past/store';
 import { TimeBar } from './past/TimeBar';
-import { followProject, WATCH_LISTS } from './watch/lists';
+import { registerWatchLists } from './watch/panels';
 import { onDemand } from '@/ui/onDemand';
 
 const WatchPanel = onDemand(() => import('./watch/WatchPanel'));
@@ -26,21 +26,7 @@ function useForceCount() {
 }
 
 export function registerOnline(): void {
-  for (const list of WATCH_LISTS) {
-    registerPanel({
-      id: `watch${String(list)}`,
-      title: 'watch.title',
-      titleValues: { number: list },
-      icon: Eye,
-      component: WatchPanel,
-      props: { list },
-      position: 'bottom',
-      order: 20 + list,
-      initial: list === 1,
-      submenu: 'watch.menu',
-    });
-  }
-
+  registerWatchLists(WatchPanel);
   registerPanel({
     id: 'forces',
     title: 'forces.title',
@@ -58,7 +44,6 @@ export function registerOnline(): void {
   followSessions();
   followTimeBars();
   followFaults();
-  followProject();
 }
 
 /** An application that stops with an exception: the way that led there lies open. */

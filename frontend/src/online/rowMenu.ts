@@ -9,7 +9,7 @@ import { copyChosen } from './copyRows';
 import { prepare, preparedLiteral } from './prepared';
 import { actOnSymbol } from '@/workbench/symbolActs';
 import type { OnlineRow } from './treeRows';
-import { addToList, useWatchLists, WATCH_LISTS } from './watch/lists';
+import { addEntries, addExpressions } from './watch/ownLists';
 
 /** F12 and Alt+Shift+F12 as in editors. True when the key was one of them. */
 export function symbolKey(event: KeyboardEvent, row: OnlineRow | undefined): boolean {
@@ -79,14 +79,7 @@ export function commonEntries(t: typeof Text, session: OnlineSession | null, row
       key: 'watch',
       text: t('watch.add'),
       icon: Eye,
-      entries: WATCH_LISTS.map((list) => ({
-        kind: 'item',
-        key: `watch${String(list)}`,
-        text: t('watch.title', { number: list }),
-        checked: useWatchLists.getState().current === list,
-        disabledReason: none,
-        run: () => addToList(list, expressions),
-      })),
+      entries: addEntries((list) => addExpressions(expressions, list), none),
     },
     {
       kind: 'item',

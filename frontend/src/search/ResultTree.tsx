@@ -1,5 +1,7 @@
 import { useVirtualizer } from '@tanstack/react-virtual';
-import { useId, useMemo, useRef, useState, type KeyboardEvent, type ReactNode } from 'react';
+import { useId, useMemo, useRef, useState, type KeyboardEvent, type MouseEvent, type ReactNode } from 'react';
+import { keys, queryClient } from '@/api/queries';
+import type { ObjectSummary } from '@/api/types';
 import { useText } from '@/i18n';
 import { ObjectIcon } from '@/project/ObjectIcon';
 import { displayPlace } from '@/project/objectName';
@@ -7,11 +9,13 @@ import { MOTION_OF_KEY, moveFocus } from '@/project/tree';
 import { Twist } from '@/ui/Twist';
 import { toggledIn } from '@/ui/toggleSet';
 import { openObject } from '@/workbench/docking/dock';
+import { dragOut } from '@/workbench/expressionDrag';
 import { showDocumentation } from '@/workbench/libraries/show';
 import rowStyles from '@/ui/Rows.module.css';
 import { choiceOf, hitKey, rowsOf, withChoice, type ResultRow, type SearchObject } from './model';
 import styles from './Search.module.css';
 import { useSearch } from './store';
+import { variablesOfHit } from './watchable';
 
 const ROW_HEIGHT = 24;
 
@@ -89,7 +93,10 @@ export function ResultTree({ groups, closed, setClosed, replacing, leftOut, chil
               className={`${rowStyles.row} ${styles.row}`}
               style={{ transform: `translateY(${String(start)}px)`, paddingLeft: row.level === 1 ? 4 : 22 }}
               title={row.hit === null ? row.group.path : `${row.hit.before}${row.hit.match}${row.hit.after}`}
-              onMouseDown={() => setFocused(row.object.id)}
+              onMouseDown={(event) => {
+                setFocused(row.object.id);
+                dragHit(row, event);
+              }}
               onClick={() => open(row, false)}
             >
               {row.level === 1 && <Twist open={row.expanded} expandable />}
@@ -169,6 +176,18 @@ const BEFORE = 18;
 
 function shortened(before: string): string {
   return before.length > BEFORE + 2 ? `…${before.slice(-BEFORE)}` : before;
+}
+
+/** Out of the panel the variable of a hit is dragged, to watch lists and traces. */
+function dragHit({ group, hit }: ResultRow, event: MouseEvent<HTMLElement>): void {
+  const { projectId } = useSearch.getState();
+  const home = event.currentTarget.closest('[role="tree"]');
+  const objectId = group.object_id;
+  if (event.button !== 0 || hit === null || objectId === null || projectId === null || home === null) return;
+  event.preventDefault();
+  (home as HTMLElement).focus();
+  const objects = queryClient.getQueryData<ObjectSummary[]>(keys.objects(projectId)) ?? [];
+  dragOut({ home, expressions: () => variablesOfHit(projectId, objects, objectId, hit) });
 }
 
 function goToHit({ group, hit }: ResultRow, focus: boolean): void {

@@ -46,6 +46,8 @@ class ForcedValue(Struct, frozen=True):
     user: str = ""
     source: str = ""
     at_ns: int = 0
+    program: str = ""
+    address: str = ""
 
 
 class Read(Operation[list[bytes]], frozen=True):
@@ -87,12 +89,15 @@ class Force(Operation[None], frozen=True):
     op: ClassVar[str] = "force"
     values: Values
     user: Text = ""
-    source: Text = ""
+    source: Text = "wire"
+    program: Text = ""
+    address: Text = ""
     code_id: CodeId = ""
 
     def run(self, plc: SoftPlc) -> None:
         """From the next cycle on."""
-        plc.force(_placed(self.values), Origin(self.user, self.source, time.time_ns()), self.code_id)
+        origin = Origin(self.user, self.source, time.time_ns(), self.program, self.address)
+        plc.force(_placed(self.values), origin, self.code_id)
 
 
 class Unforce(Operation[int], frozen=True):
@@ -119,7 +124,7 @@ class ListForces(Operation[list[ForcedValue]], frozen=True):
         return [
             ForcedValue(
                 f.value.place.offset, f.value.place.bit, f.value.data, f.before, path,
-                f.origin.user, f.origin.source, f.origin.at_ns,
+                f.origin.user, f.origin.source, f.origin.at_ns, f.origin.program, f.origin.address,
             )
             for f, path in plc.forces()
         ]  # fmt: skip

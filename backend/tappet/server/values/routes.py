@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from typing import Annotated
 
+from fastapi import Request
+
 from tappet.server.audit import Act
 from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.roles import Role
+from tappet.server.auth.sent_from import sent_from
 from tappet.server.dependencies import LinkDep, Viewer
 from tappet.server.routing import Router
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.spoken import LanguageDep, in_language
 from tappet.server.values import service as values
 from tappet.server.values.service import Written
-from tappet.server.values.shapes import ForceOrder, Forces, ReadOrder, UnforceOrder, Values, WriteOrder
+from tappet.server.values.shapes import Forces, ReadOrder, UnforceOrder, Values, WriteOrder
 
 router = Router(prefix="/runtimes/{runtime_id}", tags=["values"])
 
@@ -48,12 +51,13 @@ async def write_values(
 @router.post("/values/force")
 async def force_values(
     act: Annotated[ActRecord, audited("force", Role.OPERATOR, quoted=True)],
-    body: ForceOrder,
+    request: Request,
+    body: WriteOrder,
     link: LinkDep,
 ) -> Forces:
     """Hold variables at values until they are released; answers with all forces."""
     begin = _recording(act, "force", link)
-    await values.force(link, body.values, begin, user=act.who.username, source=body.source)
+    await values.force(link, body.values, begin, user=act.who.username, place=sent_from(act.who, request))
     return Forces(values=await values.forces(link))
 
 

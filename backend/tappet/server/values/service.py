@@ -16,6 +16,7 @@ from tappet.lang.nearest import nearest
 from tappet.runtime.operations.flight import ReadFlight
 from tappet.runtime.operations.instants import instant_of
 from tappet.runtime.operations.values import Force, ListForces, Read, Unforce, Write
+from tappet.server.auth.sent_from import SentFrom
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink, path_of
 from tappet.server.shapes import InvalidField
@@ -63,10 +64,10 @@ async def write(link: RuntimeLink, values: Sequence[NewValue], begin: Begin) -> 
 
 
 async def force(
-    link: RuntimeLink, values: Sequence[NewValue], begin: Begin, *, user: str, source: str
+    link: RuntimeLink, values: Sequence[NewValue], begin: Begin, *, user: str, place: SentFrom
 ) -> None:
     """Forces all values; raises a 422 problem and forces none if one is wrong."""
-    await _set(link, values, begin, force=(user, source))
+    await _set(link, values, begin, force=(user, place))
 
 
 async def unforce(
@@ -100,6 +101,8 @@ async def forces(link: RuntimeLink) -> list[ForcedValue]:
         origin: dict[str, Any] = {
             "user": force.user,
             "source": force.source,
+            "program": force.program,
+            "address": force.address,
             "at": instant_of(force.at_ns) if force.at_ns else None,
         }
         if isinstance(ref, str):
@@ -177,7 +180,11 @@ def json_value(value: Any) -> Any:
 
 
 async def _set(
-    link: RuntimeLink, values: Sequence[NewValue], begin: Begin, *, force: tuple[str, str] | None = None
+    link: RuntimeLink,
+    values: Sequence[NewValue],
+    begin: Begin,
+    *,
+    force: tuple[str, SentFrom] | None = None,
 ) -> None:
     """Writes values, or forces them with the user and the source of the order."""
     symbols, code_id = link.loaded_symbols(), link.code_id
@@ -204,11 +211,11 @@ async def _set(
         ]
     )
     async with link.client() as client:
-        await (
-            client.call(Write(batch, code_id))
-            if force is None
-            else client.call(Force(batch, *force, code_id))
-        )
+        if force is None:
+            await client.call(Write(batch, code_id))
+        else:
+            user, sent = force
+            await client.call(Force(batch, user, sent.source, sent.program, sent.address, code_id))
     if force is not None:
         await link.refresh()
 

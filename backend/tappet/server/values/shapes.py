@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field, JsonValue, StringConstraints
 
@@ -56,14 +56,6 @@ class WriteOrder(Request):
     values: Annotated[list[NewValue], Field(min_length=1, max_length=MAX_EXPRESSIONS)]
 
 
-class ForceOrder(WriteOrder):
-    """Values to force; all or none."""
-
-    source: Literal["workbench", "api"] = Field(
-        default="api", description="What the order comes from; the list of forces shows it."
-    )
-
-
 class UnforceOrder(Request):
     """Forced variables to release; null: all."""
 
@@ -76,7 +68,12 @@ class ForcedValue(Value):
 
     before: str | None = Field(default=None, description="What it held before, as IEC literal.")
     user: str = Field(default="", description="Who has forced it.")
-    source: str = Field(default="", description="workbench or api; empty where it is not known.")
+    source: str = Field(
+        default="",
+        description="workbench, api, or wire (a client of the runtime itself); empty where it is not known.",
+    )
+    program: str = Field(default="", description="What a script calls itself, such as `curl/8.5.0`.")
+    address: str = Field(default="", description="Network address of the browser or script.")
     at: datetime | None = Field(default=None, description="When it got this value.")
 
 

@@ -1,4 +1,4 @@
-import { useCallback, useState } from 'react';
+import { useCallback, useEffect, useRef, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useBookmarkMarks } from '@/bookmarks/marks';
 import { useText } from '@/i18n';
@@ -12,6 +12,8 @@ import { useOnlineView } from '../online/useOnlineView';
 import { setEditorSettings, useEditorSettings, type TextView } from '@/text/settings';
 import { CodePane, type CodeEditor } from '@/text/CodePane';
 import { addPanelEditor, removePanelEditor } from '@/text/focus';
+import { watchable } from '../text/acts';
+import { dragsVariables } from '../text/dragVariables';
 import { followRightClick, TextMenu } from '../text/TextMenu';
 import { useEditingLock } from '../text/useEditingLock';
 import { ViewSwitch } from '@/text/ViewSwitch';
@@ -53,8 +55,12 @@ export function DeclarationPane(props: DeclarationPaneProps) {
 }
 
 function DeclarationText(props: DeclarationPaneProps) {
-  const { panelId, projectId, object, monaco, document } = props;
+  const { panelId, projectId, object, instance, monaco, document } = props;
   const t = useText();
+  const latest = useRef({ monaco, document, projectId, object, instance });
+  useEffect(() => {
+    latest.current = { monaco, document, projectId, object, instance };
+  });
   const [editor, setEditor] = useState<CodeEditor | null>(null);
   const readOnly = useEditingLock(object, editor);
   useShorthand(monaco, projectId, editor);
@@ -68,6 +74,7 @@ function DeclarationText(props: DeclarationPaneProps) {
         addPanelEditor(panelId, 'declaration', made);
         languageClient(monaco, projectId);
         followRightClick(made);
+        dragsVariables(made, () => watchable(latest.current, made));
       }
       setEditor(made);
     },

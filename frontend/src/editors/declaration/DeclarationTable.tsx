@@ -17,8 +17,9 @@ import { useRowPlace } from '@/text/useRowPlace';
 import { Grid, type GridEditing, type GridHandle } from '@/ui/grid/Grid';
 import { useGridSelection } from '@/ui/grid/useGridSelection';
 import { setPanelTable } from '@/text/focus';
+import { fillTransfer } from '@/workbench/expressionDrag';
 import { quickFixEntries } from '../text/quickFixes';
-import { showCrossReferences } from '../text/acts';
+import { showCrossReferences, variablesOf } from '../text/acts';
 import { symbolEntries } from '../text/TextMenu';
 import { useEditingLock } from '../text/useEditingLock';
 import { CellEditor } from './CellEditor';
@@ -250,6 +251,13 @@ export function DeclarationTable(props: DeclarationTableProps) {
               />
             )}
             onEdit={acts.edit}
+            onDragRow={(row, event) => {
+              const many = selection.selected.has(row) ? [...selection.selected].sort((a, b) => a - b) : [row];
+              const rows = many.flatMap((index) => model.rows[shown[index] ?? DRAFT_KEY] ?? []);
+              const variables = variablesOf({ projectId, object, instance }, text, rows);
+              if (variables.length === 0) event.preventDefault();
+              else fillTransfer(event.dataTransfer, variables);
+            }}
             onKey={onKey}
             onEmptyClick={selection.clear}
             sorting={sorting}

@@ -33,7 +33,7 @@ import { commandContext } from '@/workbench/context';
 import { entriesOf } from '@/workbench/frame/menuEntries';
 import { showCrossReferencesAt } from '../crossReferences/place';
 import { chooseInstance } from './chooseInstance';
-import { monitorTarget } from './monitorScope';
+import { monitorTarget } from '@/project/monitorScope';
 
 type OnlineDeclarationProps = EditorProps & OpenText & { object: ObjectSummary; session: OnlineSession };
 

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { ObjectSummary } from '@/api/types';
 import type { SubscribedItem } from '@/online/item';
-import { monitorTarget } from './monitorScope';
+import { monitorTarget } from '@/project/monitorScope';
 import { pillOf, PillWidths, type PillState } from './pills';
 import { expressionOf } from '@/iec/variables';
 import { unchangedLines } from './staleLines';

@@ -14,7 +14,7 @@ import { useEditorSettings } from '@/text/settings';
 import type { CodeEditor } from '@/text/CodePane';
 import type { Executed } from './executed';
 import { InlineMonitor, type MonitorSettings } from './inlineMonitor';
-import { monitorTarget } from './monitorScope';
+import { monitorTarget } from '@/project/monitorScope';
 import { prepareClicked, prepareValue } from './preparePopup';
 import { noteRunningText, runningText } from './runningText';
 import { unchangedLines } from './staleLines';

@@ -1,4 +1,4 @@
-import { useCallback, useMemo, useState } from 'react';
+import { useCallback, useEffect, useMemo, useRef, useState } from 'react';
 import type { ObjectSummary } from '@/api/types';
 import { useBookmarkMarks } from '@/bookmarks/marks';
 import { useText } from '@/i18n';
@@ -10,6 +10,8 @@ import { useFaultLine } from '../online/useFaultLine';
 import { useOnlineView } from '../online/useOnlineView';
 import { CodePane, type CodeEditor } from '@/text/CodePane';
 import { addPanelEditor, removePanelEditor } from '@/text/focus';
+import { watchable } from './acts';
+import { dragsVariables } from './dragVariables';
 import { followRightClick, TextMenu } from './TextMenu';
 import { useAutoDeclare } from './useAutoDeclare';
 import { useEditingLock } from './useEditingLock';
@@ -20,6 +22,14 @@ export function ImplementationPane(props: EditorProps & OpenText & { object: Obj
   const t = useText();
   const [editor, setEditor] = useState<CodeEditor | null>(null);
   const readOnly = useEditingLock(object, editor);
+  const panel = useMemo(
+    () => ({ monaco, document, projectId, object, instance }),
+    [monaco, document, projectId, object, instance],
+  );
+  const latest = useRef(panel);
+  useEffect(() => {
+    latest.current = panel;
+  });
   const onEditor = useCallback(
     (made: CodeEditor | null) => {
       if (made === null) removePanelEditor(panelId, 'implementation');
@@ -27,14 +37,11 @@ export function ImplementationPane(props: EditorProps & OpenText & { object: Obj
         addPanelEditor(panelId, 'implementation', made);
         languageClient(monaco, projectId);
         followRightClick(made);
+        dragsVariables(made, () => watchable(latest.current, made));
       }
       setEditor(made);
     },
     [panelId, monaco, projectId],
-  );
-  const panel = useMemo(
-    () => ({ monaco, document, projectId, object, instance }),
-    [monaco, document, projectId, object, instance],
   );
   useAutoDeclare(panel, editor);
   useOnlineView({ ...props, part: 'implementation', editor });

@@ -1,14 +1,17 @@
+import { Eye } from 'lucide-react';
 import type { ReactNode } from 'react';
 import { t } from '@/i18n';
 import { panelEditor } from '@/text/focus';
 import type { CodeEditor } from '@/text/CodePane';
+import { addEntries } from '@/online/watch/ownLists';
 import { ContextMenu, type MenuEntry } from '@/ui/Menu';
 import { useRegistry } from '@/workbench/commands';
 import { commandContext } from '@/workbench/context';
 import { entriesOf } from '@/workbench/frame/menuEntries';
+import { runCommand } from '@/workbench/run';
 
 const SYMBOL_COMMANDS = ['st.goToDefinition', 'st.peekReferences', 'st.crossReferences', null] as const;
-const VALUE_COMMANDS = ['online.prepareValue', 'online.writeValues', 'online.forceValues', 'watch.add', null] as const;
+const VALUE_COMMANDS = ['online.prepareValue', 'online.writeValues', 'online.forceValues', null] as const;
 const TEXT_COMMANDS = [
   'st.inputAssistant',
   'st.autoDeclare',
@@ -30,11 +33,23 @@ export function symbolCommands(): readonly (string | null)[] {
   return commandContext().online === null ? SYMBOL_COMMANDS : [...SYMBOL_COMMANDS, ...VALUE_COMMANDS];
 }
 
+/** The list to which the variable at the cursor goes. */
+function watchEntry(): MenuEntry {
+  return {
+    kind: 'sub',
+    key: 'watch',
+    text: t('watch.add'),
+    icon: Eye,
+    entries: addEntries((list) => runCommand('watch.add', { list })),
+  };
+}
+
 /** Entries for the symbol at the cursor of a table, with a line behind them. */
 export function symbolEntries(): MenuEntry[] {
   const commands = [...symbolCommands(), 'st.renameSymbol', 'bookmarks.toggle'];
   return [
     ...entriesOf(commands, useRegistry.getState().commands, commandContext()),
+    watchEntry(),
     { kind: 'line', key: 'line-symbol' },
   ];
 }
@@ -43,7 +58,10 @@ function textEntries(): MenuEntry[] {
   const { commands } = useRegistry.getState();
   const context = commandContext();
   return [
-    ...entriesOf([...symbolCommands(), ...TEXT_COMMANDS], commands, context),
+    ...entriesOf(symbolCommands(), commands, context),
+    watchEntry(),
+    { kind: 'line', key: 'line-watch' },
+    ...entriesOf(TEXT_COMMANDS, commands, context),
     { kind: 'line', key: 'line-fold' },
     { kind: 'sub', key: 'fold', text: t('st.folding'), entries: entriesOf(FOLD_COMMANDS, commands, context) },
   ];

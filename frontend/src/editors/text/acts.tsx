@@ -8,9 +8,9 @@ import type { AppliedEdits } from '@/lsp/edits';
 import { activeLanguageClient } from '@/lsp/session';
 import { renameSymbol, renameTarget } from '@/lsp/rename';
 import { crossReferences } from '@/lsp/symbols';
-import { addToList, useWatchLists } from '@/online/watch/lists';
+import { useWatchLists } from '@/online/watch/lists';
+import { addExpressions } from '@/online/watch/ownLists';
 import { openDialog } from '@/ui/dialogs';
-import { showPanel } from '@/workbench/docking/dock';
 import { guard, notify } from '@/ui/notices';
 import { runCommand } from '@/workbench/run';
 import { applicationOf } from '@/project/tree';
@@ -20,7 +20,7 @@ import { parseDeclaration } from '@/iec/declaration/parse';
 import { insertRow } from '@/iec/declaration/structure';
 import { openDocument } from '@/text/documents';
 import type { OpenText } from '@/text/useTextDocument';
-import { monitorTarget, owningPou } from '../online/monitorScope';
+import { monitorTarget, owningPou } from '@/project/monitorScope';
 import { setEditorSettings, useEditorSettings } from '@/text/settings';
 import { AutoDeclareDialog, type Declared } from './AutoDeclareDialog';
 import type { CodeEditor } from '@/text/CodePane';
@@ -166,11 +166,24 @@ export async function revisions({ object }: TextPanel): Promise<void> {
   await runCommand('object.history', object);
 }
 
-/** The variable at the cursor, or those of the selection, go to the watch list shown last. */
-export function addToWatch({ projectId, object, instance, document }: TextPanel, editor: TextPlace): void {
+/** Paths of declared variables as the runtime knows them; none of those that have no value of their own. */
+export function variablesOf(
+  { projectId, object, instance }: Pick<TextPanel, 'projectId' | 'object' | 'instance'>,
+  declaration: string,
+  rows: readonly { readonly name: { readonly text: string } }[],
+): string[] {
+  const { path, temporary } = monitorTarget(objectsOf(projectId), object, instance, declaration);
+  if (path === null) return [];
+  return rows
+    .map((row) => row.name.text)
+    .flatMap((name) => (temporary.has(name.toUpperCase()) ? [] : `${path}.${name}`));
+}
+
+/** Paths of the variable at the cursor, or of those in the selection, as the runtime knows them. */
+export function watchable({ projectId, object, instance, document }: TextPanel, editor: TextPlace): string[] {
   const model = editor.getModel();
   const selection = editor.getSelection();
-  if (model === null || selection === null) return;
+  if (model === null || selection === null) return [];
   const declaration = document.models.declaration.getValue();
   const { path, temporary } = monitorTarget(objectsOf(projectId), object, instance, declaration);
   const names = new Set(parseDeclaration(declaration).rows.map((row) => row.name.text.toUpperCase()));
@@ -179,23 +192,24 @@ export function addToWatch({ projectId, object, instance, document }: TextPanel,
   const to = model.getOffsetAt(selection.getEndPosition());
   const inDeclaration = model === document.models.declaration;
   const found = inDeclaration
-    ? parseDeclaration(declaration)
-        .rows.filter((row) => row.name.end >= from && row.element.start <= to && path !== null)
-        .map((row) => `${path ?? ''}.${row.name.text}`)
+    ? variablesOf(
+        { projectId, object, instance },
+        declaration,
+        parseDeclaration(declaration).rows.filter((row) => row.name.end >= from && row.element.start <= to),
+      )
     : findVariables(model.getValue(), valueTokens(model.getValue()))
         .filter((use) => use.end >= from && use.start <= to)
         .map((use) => expressionOf(use.path, scope, () => null));
-  addExpressionsToWatch(found.flatMap((expression) => expression ?? []));
+  return [...new Set(found.flatMap((expression) => expression ?? []))];
 }
 
-/** To the watch list shown last, which comes to the front. */
-export function addExpressionsToWatch(found: readonly string[]): void {
+/** To a watch list, which comes to the front: the one used last unless another is named; null asks for a new one. */
+export async function addToWatch(found: readonly string[], argument?: unknown): Promise<void> {
   const expressions = found.filter((expression) => expression !== '');
-  const list = useWatchLists.getState().current;
   if (expressions.length === 0) {
     notify({ tone: 'info', title: t('watch.nothingHere') });
     return;
   }
-  addToList(list, expressions);
-  showPanel(`watch${String(list)}`, false);
+  const { list = useWatchLists.getState().current } = (argument ?? {}) as { list?: string | null };
+  await addExpressions(expressions, list);
 }

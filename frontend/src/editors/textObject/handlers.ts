@@ -4,13 +4,13 @@ import { notify } from '@/ui/notices';
 import type { Handler, Handlers } from '@/workbench/commands';
 import { setDirty } from '@/workbench/selection';
 import {
-  addExpressionsToWatch,
   addToWatch,
   autoDeclare,
   inputAssistant,
   rename,
   revisions,
   showCrossReferences,
+  watchable,
   type TextPanel,
 } from '../text/acts';
 import type { CodeEditor } from '@/text/CodePane';
@@ -72,11 +72,9 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
       },
     },
     'watch.add': {
-      run: () => {
-        const chosen = panelChosen(panelId);
+      run: (argument) => {
         const place = panelPlace(panelId);
-        if (chosen !== null) addExpressionsToWatch(chosen);
-        else if (place !== null) addToWatch(panel, place);
+        return addToWatch(panelChosen(panelId) ?? (place === null ? [] : watchable(panel, place)), argument);
       },
     },
     ...Object.fromEntries(

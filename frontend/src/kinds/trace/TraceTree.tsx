@@ -1,8 +1,8 @@
 import { useRef, type DragEvent, type KeyboardEvent, type MouseEvent } from 'react';
 import { Eye, EyeOff } from 'lucide-react';
 import { useText } from '@/i18n';
-import { EXPRESSION_MIME } from '@/online/OnlineTable';
 import { ContextMenu, type MenuEntry } from '@/ui/Menu';
+import { droppedLines } from '@/workbench/expressionDrag';
 import { channelName, nodeKey, nodesBetween, nodesOf, sameNode, type Node, type TraceData } from './configuration';
 import { automaticColor } from './diagram/ink';
 import styles from './Trace.module.css';
@@ -64,15 +64,9 @@ export function TraceTree(props: TraceTreeProps) {
     act();
   };
   const drop = (event: DragEvent, record: number) => {
-    const own = event.dataTransfer.getData(EXPRESSION_MIME);
-    const text = event.dataTransfer.getData('text/plain');
-    const variables = own !== '' ? (JSON.parse(own) as string[]) : text.split(/\r?\n/);
     event.preventDefault();
     event.stopPropagation();
-    onDrop?.(
-      record,
-      variables.map((one) => one.trim()).filter((one) => one !== ''),
-    );
+    onDrop?.(record, droppedLines(event.dataTransfer).expressions);
   };
   const droppable = (record: number) =>
     onDrop && {

@@ -1,6 +1,6 @@
 import { LockKeyhole } from 'lucide-react';
 import { useCallback, useMemo, type KeyboardEvent } from 'react';
-import { language, useText } from '@/i18n';
+import { language, useText, type t as Text } from '@/i18n';
 import { guard } from '@/ui/notices';
 import { useOnline } from '@/workbench/onlineSession';
 import { useActiveSession } from '@/workbench/online/session';
@@ -23,10 +23,18 @@ import { useComments } from '../useComments';
 import { usePrepared } from '../prepared';
 import { ForceFiles } from './ForceFiles';
 import { forcesText } from './listFile';
-import { useForces } from './useForces';
+import { useForces, type ForcedVariable } from './useForces';
 import watch from './Watch.module.css';
 
 const NONE: readonly string[] = [];
+
+/** `API · curl/8.5.0, 10.0.0.7`: what the order came from, what a script calls itself, and the address. */
+function sourceText(t: typeof Text, { source, program, address }: ForcedVariable): string {
+  if (source === '') return '';
+  const name = t(`forces.source.${source as 'api' | 'wire' | 'workbench'}`);
+  const detail = [program, address].filter((part) => part !== '').join(', ');
+  return detail === '' ? name : t('forces.sourceOf', { source: name, detail });
+}
 
 /** All forced variables of the active application; release keeps the value or restores the one before (WAT-08, WAT-09). */
 export default function ForcesPanel({ visible }: PanelProps) {
@@ -42,7 +50,7 @@ export default function ForcesPanel({ visible }: PanelProps) {
     const extra = [
       { id: 'before', title: t('forces.before'), width: 110 },
       { id: 'user', title: t('forces.user'), width: 110 },
-      { id: 'source', title: t('forces.source'), width: 100 },
+      { id: 'source', title: t('forces.source'), width: 200 },
       { id: 'since', title: t('forces.since'), width: 170 },
     ];
     return [...all.slice(0, 4), ...extra, ...all.slice(4)];
@@ -57,7 +65,7 @@ export default function ForcesPanel({ visible }: PanelProps) {
         case 'user':
           return <span>{origin.user}</span>;
         case 'source':
-          return <span>{origin.source === '' ? '' : t(`forces.source.${origin.source as 'api' | 'workbench'}`)}</span>;
+          return <span>{sourceText(t, origin)}</span>;
         case 'since':
           return origin.at === null ? null : (
             <span>{new Date(origin.at).toLocaleString(language(), { dateStyle: 'short', timeStyle: 'medium' })}</span>

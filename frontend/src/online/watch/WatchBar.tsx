@@ -1,11 +1,12 @@
-import { Activity, Camera, Download, FileSpreadsheet, Upload, X } from 'lucide-react';
+import { Activity, Camera, Download, FileSpreadsheet, ListPlus, Upload, X } from 'lucide-react';
 import { useText } from '@/i18n';
 import { NUMBER_FORMATS, type NumberFormat } from '@/text/settings';
 import { IconButton } from '@/ui/Button';
 import { Select } from '@/ui/Field';
+import { DropdownMenu, type MenuEntry } from '@/ui/Menu';
 import table from '../OnlineTable.module.css';
 import { FileButton } from './FileButton';
-import type { ListOptions } from './lists';
+import type { ListOptions } from './model';
 import styles from './Watch.module.css';
 
 interface WatchBarProps {
@@ -20,6 +21,8 @@ interface WatchBarProps {
   onCsv: () => void;
   onExport: () => void;
   onImport: (text: string) => void;
+  /** What can be done with the list itself. */
+  acts: () => readonly MenuEntry[];
 }
 
 /** Stands for the format of the editors: a choice of the list needs a value. */
@@ -62,6 +65,7 @@ export function WatchBar(props: WatchBarProps) {
       />
       <IconButton small icon={Download} label={t('watch.export')} disabledReason={empty} onClick={props.onExport} />
       <FileButton icon={Upload} label={t('watch.import')} disabledReason={null} onText={props.onImport} />
+      <DropdownMenu trigger={<IconButton small icon={ListPlus} label={t('watch.lists')} />} entries={props.acts} />
       <span className={styles.push}>
         <Select<NumberFormat | typeof GENERAL>
           className={styles.format}

@@ -7,6 +7,7 @@ import type { PanelProps } from '@/workbench/panels';
 import { useActiveSession } from '@/workbench/online/session';
 import { NUMBER_FORMATS } from '@/text/settings';
 import { guard } from '@/ui/notices';
+import { droppedLines, EXPRESSION_MIME } from '@/workbench/expressionDrag';
 import { saveBlob } from '@/workbench/downloadFile';
 import { useProject } from '@/project/openProject';
 import { Empty } from '@/ui/Empty';
@@ -14,15 +15,18 @@ import type { MenuEntry } from '@/ui/Menu';
 import { LostBar } from '../LostBar';
 import { onlineColumns } from '../columns';
 import { parseComputed } from '../computed';
-import { EXPRESSION_MIME, OnlineTable, type OnlineTableHandle } from '../OnlineTable';
+import { OnlineTable, type OnlineTableHandle } from '../OnlineTable';
 import panel from '../OnlineTable.module.css';
 import type { OnlineRoot, OnlineRow } from '../treeRows';
 import { commonEntries } from '../rowMenu';
 import { useComments } from '../useComments';
 import { ExpressionInput } from './ExpressionInput';
 import { listFrom, listText } from './listFile';
+import { listTitle } from './listTitle';
+import { listActs } from './ownLists';
 import {
   addToList,
+  findList,
   moveInList,
   plainExpression,
   removeFromList,
@@ -31,8 +35,8 @@ import {
   setLineFormat,
   setListOptions,
   useWatchLists,
-  type WatchList,
 } from './lists';
+import { PLAIN, type WatchList } from './model';
 import { differs, literalIn, snapshotsCsv, takeSnapshot, type Snapshot } from './snapshot';
 import { Sparkline } from './Sparkline';
 import { useHistory } from './useHistory';
@@ -40,6 +44,8 @@ import styles from './Watch.module.css';
 import { WatchBar } from './WatchBar';
 
 const NEW = 'new';
+/** Between the deletion of a list and the closing of its panel. */
+const NO_LIST: WatchList = { id: '', name: '', entries: [], options: PLAIN };
 /** Snapshots beside each other; the oldest one makes room. */
 const MOST_SNAPSHOTS = 4;
 
@@ -54,14 +60,14 @@ const clockText = (at: Date) => `${at.toLocaleTimeString('en-GB')}.${String(at.g
 
 /** One of the watch lists: any variables of the application, structured ones to open (WAT-02 .. WAT-12). */
 export default function WatchPanel({ options: props, visible }: PanelProps) {
-  const list = props.list as WatchList;
+  const list = String(props.list);
   const t = useText();
   const session = useActiveSession() ?? null;
   const projectId = useProject((state) => state.projectId);
   const { data: objects } = useObjects(projectId);
-  const entries = useWatchLists((state) => state.lists[list]);
+  const shown = useWatchLists((state) => state.lists.find((one) => one.id === list)) ?? NO_LIST;
+  const { entries, options } = shown;
   const comments = useComments(projectId);
-  const options = useWatchLists((state) => state.options[list]);
   const [snapshots, setSnapshots] = useState<readonly Snapshot[]>([]);
   const table = useRef<OnlineTableHandle>(null);
   const runtimeId = session?.runtimeId ?? null;
@@ -128,6 +134,7 @@ export default function WatchPanel({ options: props, visible }: PanelProps) {
       const taken = await takeSnapshot(runtimeId, table.current?.rows() ?? []);
       setSnapshots((before) => [...before.slice(-(MOST_SNAPSHOTS - 1)), taken]);
     });
+  const fileName = shown.name?.replace(/[^\p{L}\p{N}_-]+/gu, '_') ?? `watch${list}`;
   const save = (text: string, name: string, type: string) => saveBlob(new Blob([text], { type }), name);
   const importList = (text: string) => {
     const listed = listFrom(text);
@@ -137,7 +144,7 @@ export default function WatchPanel({ options: props, visible }: PanelProps) {
     );
     for (const { expression, format } of listed) {
       if (format === undefined) continue;
-      const entry = useWatchLists.getState().lists[list].find((one) => one.expression === expression);
+      const entry = findList(list)?.entries.find((one) => one.expression === expression);
       if (entry) setLineFormat(list, [entry.id], format);
     }
   };
@@ -229,16 +236,17 @@ export default function WatchPanel({ options: props, visible }: PanelProps) {
         onOptions={(changes) => setListOptions(list, changes)}
         onSnapshot={snap}
         onForget={() => setSnapshots([])}
-        onCsv={() => save(snapshotsCsv(table.current?.rows() ?? [], snapshots), `watch${String(list)}.csv`, 'text/csv')}
-        onExport={() => save(listText(entries), `watch${String(list)}.txt`, 'text/plain')}
+        onCsv={() => save(snapshotsCsv(table.current?.rows() ?? [], snapshots), `${fileName}.csv`, 'text/csv')}
+        onExport={() => save(listText(entries), `${fileName}.txt`, 'text/plain')}
         onImport={importList}
+        acts={() => listActs(list)}
       />
       <div>
         <OnlineTable
           handle={table}
           formatOf={formatOf}
           extraCell={extraCell}
-          label={t('watch.title', { number: list })}
+          label={listTitle(t, shown)}
           session={session}
           roots={roots}
           columns={columns}
@@ -260,11 +268,9 @@ export default function WatchPanel({ options: props, visible }: PanelProps) {
 
 /** Expressions from a table or another list, or lines of text from an editor. */
 function droppedExpressions(event: DragEvent, objects: readonly ObjectSummary[]): string[] {
-  const own = event.dataTransfer.getData(EXPRESSION_MIME);
-  if (own !== '') return JSON.parse(own) as string[];
-  return event.dataTransfer
-    .getData('text/plain')
-    .split(/\r?\n/)
+  const { expressions, text } = droppedLines(event.dataTransfer);
+  if (!text) return [...expressions];
+  return expressions
     .map((line) => plainExpression(line, objects))
     .filter((line) => /^[.%A-Za-z_][\w.[\],\s%^-]*$/.test(line) || parseComputed(line) !== null);
 }

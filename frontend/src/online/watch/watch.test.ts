@@ -5,13 +5,20 @@ import { flatten, watchedExpressions, type OnlineRoot } from '../treeRows';
 import { completionsFor, isComplete, preselected, splitExpression } from './completion';
 import {
   addToList,
+  deleteList,
+  findList,
   moveInList,
+  newList,
   plainExpression,
   removeFromList,
+  renameList,
   setExpression,
-  toStored,
+  setLineFormat,
+  setListOptions,
   useWatchLists,
 } from './lists';
+import { freeName, nameFault } from './listTitle';
+import { listsFrom, toStored } from './model';
 
 const child = (path: string, type: string, kind: string, leaf: boolean): SymbolChild => ({
   name: path.endsWith(']') ? path.slice(path.lastIndexOf('[')) : path.slice(path.lastIndexOf('.') + 1),
@@ -111,22 +118,70 @@ describe('rows of an online table', () => {
 });
 
 describe('watch lists', () => {
-  const list = () => useWatchLists.getState().lists[2].map((entry) => entry.expression);
-  const idOf = (expression: string) =>
-    useWatchLists.getState().lists[2].find((e) => e.expression === expression)?.id ?? '';
+  const list = () => (findList('2')?.entries ?? []).map((entry) => entry.expression);
+  const idOf = (expression: string) => findList('2')?.entries.find((e) => e.expression === expression)?.id ?? '';
   it('take, change, move and drop expressions', () => {
-    addToList(2, ['PLC_PRG.a', ' PLC_PRG.b ', 'plc_prg.A', '']);
+    addToList('2', ['PLC_PRG.a', ' PLC_PRG.b ', 'plc_prg.A', '']);
     expect(list()).toEqual(['PLC_PRG.a', 'PLC_PRG.b']);
-    addToList(2, ['PLC_PRG.c'], idOf('PLC_PRG.b'));
+    addToList('2', ['PLC_PRG.c'], idOf('PLC_PRG.b'));
     expect(list()).toEqual(['PLC_PRG.a', 'PLC_PRG.c', 'PLC_PRG.b']);
-    setExpression(2, idOf('PLC_PRG.c'), 'PLC_PRG.d');
-    moveInList(2, idOf('PLC_PRG.d'), -1);
-    moveInList(2, idOf('PLC_PRG.d'), -1);
+    setExpression('2', idOf('PLC_PRG.c'), 'PLC_PRG.d');
+    moveInList('2', idOf('PLC_PRG.d'), -1);
+    moveInList('2', idOf('PLC_PRG.d'), -1);
     expect(list()).toEqual(['PLC_PRG.d', 'PLC_PRG.a', 'PLC_PRG.b']);
-    setExpression(2, idOf('PLC_PRG.a'), '  ');
-    removeFromList(2, [idOf('PLC_PRG.b')]);
+    setExpression('2', idOf('PLC_PRG.a'), '  ');
+    removeFromList('2', [idOf('PLC_PRG.b')]);
     expect(list()).toEqual(['PLC_PRG.d']);
-    expect(toStored(useWatchLists.getState().lists)[2]).toEqual(['PLC_PRG.d']);
+    expect(toStored(useWatchLists.getState().lists)['2']).toEqual(['PLC_PRG.d']);
+  });
+  it("of one's own are made, copied, named and deleted; Watch 1 to 4 stay", () => {
+    const names = () => useWatchLists.getState().lists.map(({ name }) => name);
+    const mine = newList(' Pumps ');
+    addToList(mine, ['GVL.xPump']);
+    setListOptions(mine, { history: true });
+    const copy = newList('Pumps 2', mine);
+    renameList(mine, 'All pumps');
+    renameList('1', 'First');
+    addToList(copy, ['GVL.xValve']);
+    expect(names()).toEqual([null, null, null, null, 'All pumps', 'Pumps 2']);
+    expect(findList(mine)?.entries.map((e) => e.expression)).toEqual(['GVL.xPump']);
+    expect(findList(copy)?.entries.map((e) => e.expression)).toEqual(['GVL.xPump', 'GVL.xValve']);
+    expect(findList(copy)?.options.history).toBe(true);
+    expect(useWatchLists.getState().current).toBe(copy);
+    deleteList('1');
+    deleteList(copy);
+    expect(names()).toEqual([null, null, null, null, 'All pumps']);
+    expect(useWatchLists.getState().current).toBe('1');
+    deleteList(mine);
+  });
+  it('come back from the settings as they were, those of four lists too', () => {
+    const mine = newList('Pumps');
+    addToList(mine, ['GVL.a', 'GVL.b']);
+    setLineFormat(mine, [findList(mine)?.entries[1]?.id ?? ''], 'hex');
+    setListOptions(mine, { format: 'bin' });
+    const stored: unknown = JSON.parse(JSON.stringify(toStored(useWatchLists.getState().lists)));
+    expect(listsFrom(stored).at(-1)).toEqual({
+      id: mine,
+      name: 'Pumps',
+      entries: [{ expression: 'GVL.a' }, { expression: 'GVL.b', format: 'hex' }],
+      options: { format: 'bin', history: false },
+    });
+    deleteList(mine);
+    const before = {
+      1: ['A.b', { expression: 'A.c', format: 'hex' }],
+      options: { 1: { format: null, history: true } },
+    };
+    expect(listsFrom(before).map(({ entries }) => entries.length)).toEqual([2, 0, 0, 0]);
+    expect(listsFrom(before)[0]?.options).toEqual({ format: null, history: true });
+    expect(listsFrom([3, 'x']).length).toBe(4);
+    expect(listsFrom({ own: [{ id: 'own1' }, null, { id: '1', name: 'x' }] }).length).toBe(4);
+  });
+  it('have names that tell them apart', () => {
+    expect(nameFault('  ', [])).toBe('empty');
+    expect(nameFault('x'.repeat(61), [])).toBe('long');
+    expect(nameFault('watch 1', ['Watch 1'])).toBe('taken');
+    expect(freeName('Watch 1', ['Watch 1', 'Watch 1 2'])).toBe('Watch 1 3');
+    expect(freeName('Mine', ['Watch 1'])).toBe('Mine');
   });
   it('accept full paths with device and application (WAT-03)', () => {
     const object = (kind: string, name: string) => ({ kind, name }) as ObjectSummary;

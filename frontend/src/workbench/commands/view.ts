@@ -1,9 +1,9 @@
 import { Command as CommandIcon, FileSearch, Hash, Maximize } from 'lucide-react';
-import { menuGroup, registerCommands, type Command } from '../commands';
+import { menuGroup, registerCommand, registerCommands, type Command } from '../commands';
 import { project } from '../conditions';
 import { dockApi, showPanel } from '../docking/dock';
 import { openPalette } from '../palette/state';
-import { allPanels } from '../panels';
+import { allPanels, followPanels, type PanelRegistration } from '../panels';
 
 const commands: Command[] = [
   ...menuGroup(
@@ -45,9 +45,9 @@ const commands: Command[] = [
   },
 ];
 
-/** One command per registered panel; call after every room has registered. */
-function panelCommands(): Command[] {
-  return allPanels().map((panel) => ({
+/** Shows the panel. */
+function panelCommand(panel: PanelRegistration): Command {
+  return {
     id: `view.${panel.id}`,
     title: panel.title,
     titleValues: panel.titleValues,
@@ -61,9 +61,26 @@ function panelCommands(): Command[] {
     },
     checked: () => dockApi()?.getPanel(panel.id) !== undefined,
     run: () => showPanel(panel.id),
-  }));
+  };
+}
+
+/** One command per panel, also for those that come later. */
+function followPanelCommands(): void {
+  const registered = new Map<PanelRegistration, () => void>();
+  const follow = () => {
+    const panels = allPanels();
+    for (const [panel, dispose] of registered) {
+      if (panels.includes(panel)) continue;
+      dispose();
+      registered.delete(panel);
+    }
+    for (const panel of panels) if (!registered.has(panel)) registered.set(panel, registerCommand(panelCommand(panel)));
+  };
+  follow();
+  followPanels(follow);
 }
 
 export function registerViewCommands(): void {
-  registerCommands([...commands, ...panelCommands()]);
+  registerCommands(commands);
+  followPanelCommands();
 }

@@ -6,7 +6,7 @@ import { useText } from '@/i18n';
 import { ObjectIcon } from '@/project/ObjectIcon';
 import { displayName } from '@/project/objectName';
 import { useOnline } from '../onlineSession';
-import { findPanel, type PanelRegistration } from '../panels';
+import { usePanel, type PanelRegistration } from '../panels';
 import { useProject } from '@/project/openProject';
 import { useSelection } from '../selection';
 import { ToneDot } from '../online/ToneDot';
@@ -51,13 +51,21 @@ export function EditorTab(props: IDockviewPanelHeaderProps<EditorParams>) {
 /** The tab of a tool panel: icon, title, a live count. */
 export function ToolTab(props: IDockviewPanelHeaderProps) {
   const t = useText();
-  const registration = findPanel(props.api.id);
-  if (!registration) return null;
+  const registration = usePanel(props.api.id);
+  const title = registration && t(registration.title, registration.titleValues);
+  const { api } = props;
+  useEffect(() => {
+    // The docking names tab and panel by it for screen readers.
+    if (title !== undefined && api.title !== title) api.setTitle(title);
+  }, [api, title]);
+  if (!registration || title === undefined) return null;
   const Icon = registration.icon;
-  const title = t(registration.title, registration.titleValues);
   return (
     <TabFrame
-      entries={() => panelEntries(props.containerApi, props.api.id)}
+      entries={() => [
+        ...panelEntries(props.containerApi, props.api.id),
+        ...(registration.entries ? [{ kind: 'line' as const, key: 'line-own' }, ...registration.entries()] : []),
+      ]}
       onClose={() => props.api.close()}
       title={title}
       tool

@@ -1,6 +1,6 @@
 import type { IDockviewPanelProps } from 'dockview-react';
 import { Suspense } from 'react';
-import { findPanel } from '../panels';
+import { usePanel } from '../panels';
 import { Loading } from '@/ui/Empty';
 import { ErrorBoundary } from '@/ui/ErrorBoundary';
 import { useVisible } from './EditorPanel';
@@ -11,7 +11,7 @@ const NO_OPTIONS = {};
 /** A dock panel that holds a registered tool panel. */
 export function ToolPanel({ api }: IDockviewPanelProps) {
   const visible = useVisible(api);
-  const registration = findPanel(api.id);
+  const registration = usePanel(api.id);
   if (!registration) return null;
   const Tool = registration.component;
   return (

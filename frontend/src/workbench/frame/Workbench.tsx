@@ -19,7 +19,7 @@ import { compareLogin, followRelation } from '../online/relation';
 import { resumeLogins } from '../online/resume';
 import { useOnline } from '../onlineSession';
 import { Palette } from '../palette/Palette';
-import { findPanel } from '../panels';
+import { findPanel, loadPanels } from '../panels';
 import { useProject } from '@/project/openProject';
 import { startKeymap } from '../keymap/keymap';
 import { listenToKeys } from '../run';
@@ -84,6 +84,7 @@ function OpenWorkbench({ project, objects }: { project: ProjectSummary; objects:
       const [stored] = await Promise.all([
         loadSetting(`layout.${projectId}`).catch(() => null),
         startTree(projectId, objects),
+        loadPanels(projectId),
       ]);
       const alive = new Set(objects.map((object) => object.id));
       if (gone) return;

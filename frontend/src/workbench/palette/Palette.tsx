@@ -8,6 +8,7 @@ import { rowAfterKey } from '@/ui/table';
 import type { IconComponent } from '@/icons/IconComponent';
 import { useRegistry } from '../commands';
 import { commandContext } from '../context';
+import { dragOut } from '../expressionDrag';
 import { useProject } from '@/project/openProject';
 import { commandItems, objectItems, type PaletteItem } from './items';
 import { search } from './match';
@@ -163,6 +164,12 @@ function Entry({ id, item, marks, chosen, onEnter, onChoose }: EntryProps) {
       aria-disabled={item.disabledReason ? true : undefined}
       className={styles.entry}
       onPointerMove={onEnter}
+      onMouseDown={(event) => {
+        const home = event.currentTarget.closest('[role="dialog"]');
+        const { variable } = item;
+        if (event.button !== 0 || home === null || variable == null) return;
+        dragOut({ home, expressions: () => [variable], onLeave: () => closePalette() });
+      }}
       onClick={onChoose}
     >
       {Icon ? <Icon size={16} strokeWidth={1.6} /> : <span style={{ width: 16 }} />}

@@ -18,6 +18,8 @@ export interface PaletteItem {
   icon?: IconComponent;
   keys?: string;
   disabledReason?: string | null;
+  /** The variable it stands for, as the runtime knows it: it can be dragged to a watch list. */
+  variable?: string | null;
   run: () => void;
 }
 

@@ -5,6 +5,7 @@ import type { ObjectSummary } from '@/api/types';
 import { commandContext } from '../context';
 import { openObject } from '../docking/dock';
 import { parsePartUri, type Part } from '@/project/partUri';
+import { holdsValues } from '@/project/kinds';
 import { objectPath } from '@/project/tree';
 import type { IconComponent } from '@/icons/IconComponent';
 import type { PaletteItem } from './items';
@@ -14,8 +15,9 @@ const SHORTEST = 2;
 const PAUSE_MS = 120;
 /** Kinds of the protocol: enum 10, key (a jump label) 20, enum member 22, struct 23. */
 const ICONS: Readonly<Record<number, IconComponent>> = { 10: ListTree, 20: Tag, 22: CircleDot, 23: Braces };
-/** Sections of a declaration (VAR_INPUT ...) are namespaces. */
+/** Sections of a declaration (VAR_INPUT ...) are namespaces; fields, variables and constants have a value. */
 const SECTION = 3;
+const VARIABLE_KINDS = new Set([8, 13, 14]);
 
 interface Target {
   objectId: string;
@@ -32,13 +34,16 @@ function item(
   objects: readonly ObjectSummary[],
 ): PaletteItem {
   const { objectId, ...place } = target;
+  const owner = objects.find((object) => object.id === objectId);
+  const watchable = owner !== undefined && holdsValues(owner) && VARIABLE_KINDS.has(kind);
   return {
+    variable: watchable ? `${owner.name}.${name}` : null,
     id: `${objectId}/${place.part}/${String(place.line)}:${String(place.column)}`,
     text: name,
     detail,
     icon: ICONS[kind] ?? Variable,
     run: () =>
-      openObject(objectId, objects.find((object) => object.id === objectId)?.name ?? name, {
+      openObject(objectId, owner?.name ?? name, {
         place: { ...place, endLine: place.line, endColumn: place.column + name.length },
       }),
   };
