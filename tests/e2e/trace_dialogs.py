@@ -32,6 +32,7 @@ def trace_in_example(ui: Ui, server: Server) -> dict[str, Any]:
     "trace.axisTemplate",
     "trace.onlineList",
     "trace.export",
+    "trace.longTermTitle",
     "trace.renameRecording",
     "trace.deleteRecording",
 )
@@ -60,6 +61,9 @@ def traces(ui: Ui, server: Server) -> Iterator[str]:
         page.keyboard.press("Escape")
         choose("trace.export")
         yield "trace.export"
+        page.keyboard.press("Escape")
+        choose("trace.longTerm")
+        yield "trace.longTermTitle"
         page.keyboard.press("Escape")
         choose("trace.snapshot")
         ui.panel().get_by_role("tab", name=ui.name("trace.panel.recordings")).click()

@@ -19,12 +19,22 @@ import { traceKeys } from './data/useRuns';
 
 export type ExportFormat = 'csv' | 'parquet' | 'trace';
 
+/** A long-term recording; null: without that limit. */
+export interface LongTermOrder {
+  title: string;
+  seconds: number | null;
+  keep_seconds: number | null;
+  keep_mib: number | null;
+}
+
 export interface TraceOnline {
   download: () => Promise<void>;
   tell: (what: 'start' | 'stop' | 'reset-trigger') => Promise<void>;
   configuration: () => Promise<TraceData>;
   snapshot: () => Promise<void>;
-  beginRecording: () => Promise<void>;
+  beginRecording: (order: LongTermOrder) => Promise<void>;
+  /** Of what is stored now. */
+  title: () => string;
   endRecording: () => Promise<void>;
   save: (format: ExportFormat, record: number) => Promise<void>;
   load: () => void;
@@ -78,8 +88,9 @@ export function traceOnline(of: Of): TraceOnline {
       notify({ tone: 'ok', title: t('trace.stored', { title: stored }) });
       await lookAtRecordings();
     },
-    beginRecording: async () => {
-      await act('post', `${running}/recording`, { title: title(), project_id: projectId });
+    title,
+    beginRecording: async (order) => {
+      await act('post', `${running}/recording`, { ...order, project_id: projectId });
       await Promise.all([look(), lookAtRecordings()]);
     },
     endRecording: async () => {

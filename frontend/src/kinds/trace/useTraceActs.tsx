@@ -15,6 +15,7 @@ import type { TraceState } from './data/source';
 import { back, compressed, forward, shown, stretched, WHOLE_VIEW, type Views } from './diagram/viewport';
 import type { Computed } from './diagram/diagrams';
 import { ExportDialog } from './ExportDialog';
+import { LongTermDialog } from './LongTermDialog';
 import { OnlineListDialog } from './OnlineListDialog';
 import type { TraceOnline } from './online';
 import { pictureOf } from './picture';
@@ -118,8 +119,11 @@ const RUN: Readonly<Record<TraceActId, (scene: TraceScene) => void>> = {
     session && void openDialog((close) => <OnlineListDialog runtimeId={session.runtimeId} close={close} />),
   'trace.upload': ({ online, change }) => void guard(async () => change(await online.configuration())),
   'trace.snapshot': ({ online }) => void guard(() => online.snapshot()),
-  'trace.longTerm': ({ online, state }) =>
-    void guard(() => (state?.recording ? online.endRecording() : online.beginRecording())),
+  'trace.longTerm': ({ online, state }) => {
+    if (state?.recording) void guard(online.endRecording);
+    else
+      void openDialog((close) => <LongTermDialog title={online.title()} begin={online.beginRecording} close={close} />);
+  },
   'trace.save': ({ online }) => void guard(() => online.save('trace', 0)),
   'trace.load': ({ online }) => online.load(),
   'trace.export': ({ data, online }) =>

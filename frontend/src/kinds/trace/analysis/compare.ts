@@ -29,8 +29,8 @@ const GRID = 2048;
 
 /**
  * By how much the second run has to be moved so that it lies on the first: the greatest correlation of the two, each
- * less its mean, at steps of `step` nanoseconds up to half the length of the first. Null where nothing tells (no
- * overlap, or a straight line).
+ * less its mean, up to half the length of the first, then to the sample. Null where nothing tells (no overlap, or a
+ * straight line).
  */
 export function bestShift(one: Run, other: Run): number | null {
   if (one.time.length < 2 || other.time.length < 2) return null;
@@ -46,7 +46,33 @@ export function bestShift(one: Run, other: Run): number | null {
     const score = correlation(a, b, lag);
     if (score !== null && (best === null || score > best.score + 1e-12)) best = { score, lag };
   }
-  return best === null ? null : start - other.time[0]! + best.lag * step;
+  if (best === null) return null;
+  return refined(one, other, best.lag * step, step) + start - other.time[0]!;
+}
+
+/** The multiple of the distance of samples, within a step of `coarse`, that leaves the smallest difference. */
+function refined(one: Run, other: Run, coarse: number, step: number): number {
+  const interval = (one.time[one.time.length - 1]! - one.time[0]!) / (one.time.length - 1);
+  const [first, last] = [Math.ceil((coarse - step) / interval), Math.floor((coarse + step) / interval)];
+  let best = { apart: Infinity, shift: coarse };
+  for (let number = first; number <= last; number += 1) {
+    const shift = number * interval;
+    const apart = deviation(difference(one, other, shift + one.time[0]! - other.time[0]!));
+    if (apart < best.apart) best = { apart, shift };
+  }
+  return best.shift;
+}
+
+/** Mean square of the numbers less their mean. */
+function deviation(values: Float64Array): number {
+  let [n, sum, squares] = [0, 0, 0];
+  for (const value of values) {
+    if (Number.isNaN(value)) continue;
+    n += 1;
+    sum += value;
+    squares += value * value;
+  }
+  return n === 0 ? Infinity : squares / n - (sum / n) ** 2;
 }
 
 /** Pearson's coefficient of a(k + lag) and b(k) over where both are numbers; null below a quarter of overlap. */

@@ -54,10 +54,13 @@ describe('columns of a dense curve', () => {
   });
 
   it('cover every point and every line between two points, and nothing beside them', () => {
-    const points = fc.array(fc.tuple(fc.double({ min: 0, max: 9.99, noNaN: true }), fc.integer({ min: -90, max: 90 })), {
-      minLength: 2,
-      maxLength: 60,
-    });
+    const points = fc.array(
+      fc.tuple(fc.double({ min: 0, max: 9.99, noNaN: true }), fc.integer({ min: -90, max: 90 })),
+      {
+        minLength: 2,
+        maxLength: 60,
+      },
+    );
     fc.assert(
       fc.property(points, (found) => {
         const rising = [...found].sort((one, other) => one[0] - other[0]);
@@ -71,7 +74,7 @@ describe('columns of a dense curve', () => {
         // No column is higher than all that a line passes in it and its neighbours.
         for (let column = 0; column < 10; column += 1) {
           if (Number.isNaN(top[column]!)) continue;
-          const near = rising.flatMap(([at, value], k) => {
+          const near = rising.flatMap(([, value], k) => {
             const [before, after] = [rising[k - 1] ?? rising[k]!, rising[k + 1] ?? rising[k]!];
             return before[0] <= column + 1 && after[0] >= column ? [value] : [];
           });
@@ -82,10 +85,16 @@ describe('columns of a dense curve', () => {
     );
   });
 
-  it('are taken where points are denser than pixels', () => {
-    expect(isDense(curvesOf([0, 1, 2], [0, 0, 0]).curves, plane)).toBe(true);
-    expect(isDense(curvesOf([0, 3, 9], [0, 0, 0]).curves, plane)).toBe(false);
-    expect(isDense(curvesOf([0], [0]).curves, plane)).toBe(false);
+  it('are taken where points are denser than pixels, and steep', () => {
+    const dense = (time: number[], low: number[], high = low) => {
+      const { curves, curve } = curvesOf(time, low, high);
+      return isDense(curves, curve, plane);
+    };
+    expect(dense([0, 1, 2], [0, 90, 0])).toBe(true);
+    expect(dense([0, 1, 2], [0, 0, 0], [50, 50, 50])).toBe(true);
+    expect(dense([0, 1, 2], [0, 5, 0])).toBe(false);
+    expect(dense([0, 3, 9], [0, 90, 0])).toBe(false);
+    expect(dense([0], [0])).toBe(false);
   });
 });
 

@@ -8,12 +8,24 @@ export interface Columns {
   bottom: Float32Array;
 }
 
-/** Whether there are more points than columns, so that a line from point to point would show no more than these. */
-export function isDense(curves: Curves, plane: Plane): boolean {
+/** Pixels up and down for each to the right: a line that goes so far is a surface rather than a line. */
+const STEEP = 8;
+
+/**
+ * Whether there are more points than columns, and so steep that a line from point to point would show no more than
+ * the columns; a smooth one is better drawn as a line.
+ */
+export function isDense(curves: Curves, curve: Curve, plane: Plane): boolean {
   const { time } = curves;
   if (time.length < 2) return false;
   const across = Math.abs(plane.toX(time[time.length - 1]!) - plane.toX(time[0]!));
-  return time.length > across;
+  if (time.length <= across) return false;
+  let travel = 0;
+  for (let k = 1; k < time.length; k += 1) {
+    const apart = Math.abs(curve.low[k]! - curve.low[k - 1]!) + curve.high[k]! - curve.low[k]!;
+    if (apart > 0) travel += apart;
+  }
+  return travel * Math.abs(plane.toY(1) - plane.toY(0)) > STEEP * across;
 }
 
 /**

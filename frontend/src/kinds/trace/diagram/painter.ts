@@ -142,7 +142,7 @@ export function paintCurve(
   plane: Plane,
 ): void {
   const joined = look.graph === 'line' || look.graph === 'step' || look.graph === 'saw_tooth';
-  if (joined && isDense(curves, plane)) {
+  if (joined && isDense(curves, curve, plane)) {
     const columns = columnsOf(curves, curve, plane, look.graph === 'saw_tooth' ? plane.toY(0) : null);
     context.save();
     if (look.dashed) context.globalAlpha = FAINT;

@@ -8,6 +8,8 @@ import tuning from './LineChart.module.css';
 const LEFT = 66;
 const RIGHT = 8;
 const BOTTOM = 22;
+/** Of the names of the axes and the values at the pointer, which cover no curve. */
+const TOP = 18;
 
 interface LineChartProps {
   label: string;
@@ -28,7 +30,7 @@ export function LineChart({ label, xs, ys, color, xUnit, yUnit, ordered, xText }
   const { width: full, height: tall } = useSize(frame);
   const [at, setAt] = useState<number | null>(null);
   const width = Math.max(1, full - LEFT - RIGHT);
-  const height = Math.max(1, tall - BOTTOM);
+  const height = Math.max(1, tall - TOP - BOTTOM);
   const x = useMemo((): Range => (ordered ? span(xs) : withRoom(rangeOf(xs), 0.04)), [xs, ordered]);
   const y = useMemo(() => withRoom(rangeOf(ys)), [ys]);
   const path = useMemo(() => {
@@ -52,7 +54,7 @@ export function LineChart({ label, xs, ys, color, xUnit, yUnit, ordered, xText }
       }}
       onPointerLeave={() => setAt(null)}
     >
-      <svg width={full} height={tall} aria-hidden>
+      <svg width={full} height={tall} viewBox={`0 ${-TOP} ${Math.max(1, full)} ${Math.max(1, tall)}`} aria-hidden>
         {ticks(x, acrossTicks).map((value) => {
           const px = LEFT + acrossOf(value, x, width);
           return (

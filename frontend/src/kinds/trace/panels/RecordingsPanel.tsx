@@ -77,8 +77,8 @@ export function RecordingsPanel({ projectId, trace, view, onView, onConfiguratio
       <thead>
         <tr>
           <th>{t('trace.title')}</th>
-          <th>{t('kind.trace')}</th>
-          <th>{t('trace.started')}</th>
+          <th data-text>{t('kind.trace')}</th>
+          <th data-text>{t('trace.started')}</th>
           <th>{t('trace.length')}</th>
           <th>{t('trace.samples')}</th>
           <th>{t('trace.size', { used: mib(found.used_bytes), quota: mib(found.quota_bytes) })}</th>
@@ -95,6 +95,7 @@ export function RecordingsPanel({ projectId, trace, view, onView, onConfiguratio
               {one.state !== 'complete' && (
                 <span className={styles.muted}>{` ${t(`trace.recordingState.${one.state}`)}`}</span>
               )}
+              {limitsOf(one, t) !== '' && <span className={styles.muted}>{` ${limitsOf(one, t)}`}</span>}
             </th>
             <td data-text>{one.trace}</td>
             <td data-text>{new Date(one.started_at).toLocaleString()}</td>
@@ -142,6 +143,16 @@ export function RecordingsPanel({ projectId, trace, view, onView, onConfiguratio
 }
 
 const mib = (bytes: number) => `${(bytes / MIB).toFixed(bytes < 10 * MIB ? 1 : 0)} MiB`;
+
+/** What a long-term recording keeps, and what that has cost. */
+function limitsOf(recording: RecordingInfo, t: ReturnType<typeof useText>): string {
+  const { keep_seconds: seconds, keep_bytes: bytes, dropped } = recording;
+  return [
+    ...(seconds === null ? [] : [t('trace.keepsAge', { time: durationText(seconds * 1e9) })]),
+    ...(bytes === null ? [] : [t('trace.keepsSize', { size: mib(bytes) })]),
+    ...(dropped === 0 ? [] : [t('trace.dropped', { samples: dropped.toLocaleString() })]),
+  ].join(' · ');
+}
 
 function lengthOf(recording: RecordingInfo): string {
   const spans = recording.records
