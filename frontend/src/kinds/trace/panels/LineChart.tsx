@@ -6,7 +6,7 @@ import { formatNumber } from '../numbers';
 import tuning from './LineChart.module.css';
 
 const LEFT = 66;
-const RIGHT = 8;
+const RIGHT = 24;
 const BOTTOM = 22;
 /** Of the names of the axes and the values at the pointer, which cover no curve. */
 const TOP = 18;
@@ -88,8 +88,8 @@ export function LineChart({ label, xs, ys, color, xUnit, yUnit, ordered, xText }
           />
         )}
       </svg>
-      <span className={tuning.yUnit}>{yUnit}</span>
-      <span className={tuning.xUnit}>{xUnit}</span>
+      <span className={tuning.yUnit}>{`↑ ${yUnit}`}</span>
+      {xUnit !== '' && <span className={tuning.xUnit}>{`${xUnit} →`}</span>}
       {near !== null && (
         <output className={`${tuning.readout} code`}>
           {`${xText ? xText(xs[near]!) : `${formatNumber(xs[near]!)} ${xUnit}`}: ${formatNumber(ys[near]!)}`}

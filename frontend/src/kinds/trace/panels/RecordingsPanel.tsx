@@ -15,6 +15,7 @@ import type { TraceData } from '../configuration';
 import { act, sourcePath, type RecordingInfo } from '../data/source';
 import { traceKeys, useRecordings } from '../data/useRuns';
 import { FIRST_VIEW, type TraceView } from '../traceView';
+import { formatBytes } from '../numbers';
 import styles from '../Trace.module.css';
 
 interface RecordingsPanelProps {
@@ -26,8 +27,6 @@ interface RecordingsPanelProps {
   onConfiguration: ((data: TraceData) => void) | null;
   data: TraceData;
 }
-
-const MIB = 2 ** 20;
 
 /** The stored recordings: shown, drawn over what is shown, renamed, deleted. */
 export function RecordingsPanel({ projectId, trace, view, onView, onConfiguration, data }: RecordingsPanelProps) {
@@ -81,7 +80,7 @@ export function RecordingsPanel({ projectId, trace, view, onView, onConfiguratio
           <th data-text>{t('trace.started')}</th>
           <th>{t('trace.length')}</th>
           <th>{t('trace.samples')}</th>
-          <th>{t('trace.size', { used: mib(found.used_bytes), quota: mib(found.quota_bytes) })}</th>
+          <th>{t('trace.size', { used: formatBytes(found.used_bytes), quota: formatBytes(found.quota_bytes) })}</th>
           <th />
         </tr>
       </thead>
@@ -95,13 +94,15 @@ export function RecordingsPanel({ projectId, trace, view, onView, onConfiguratio
               {one.state !== 'complete' && (
                 <span className={styles.muted}>{` ${t(`trace.recordingState.${one.state}`)}`}</span>
               )}
-              {limitsOf(one, t) !== '' && <span className={styles.muted}>{` ${limitsOf(one, t)}`}</span>}
+              <span className={styles.limits} title={limitsOf(one, t)}>
+                {limitsOf(one, t)}
+              </span>
             </th>
             <td data-text>{one.trace}</td>
             <td data-text>{new Date(one.started_at).toLocaleString()}</td>
             <td>{lengthOf(one)}</td>
             <td>{one.records.reduce((sum, { samples }) => Math.max(sum, samples), 0).toLocaleString()}</td>
-            <td>{mib(one.bytes)}</td>
+            <td>{formatBytes(one.bytes)}</td>
             <td>
               <IconButton
                 icon={Layers}
@@ -142,14 +143,12 @@ export function RecordingsPanel({ projectId, trace, view, onView, onConfiguratio
   );
 }
 
-const mib = (bytes: number) => `${(bytes / MIB).toFixed(bytes < 10 * MIB ? 1 : 0)} MiB`;
-
 /** What a long-term recording keeps, and what that has cost. */
 function limitsOf(recording: RecordingInfo, t: ReturnType<typeof useText>): string {
   const { keep_seconds: seconds, keep_bytes: bytes, dropped } = recording;
   return [
     ...(seconds === null ? [] : [t('trace.keepsAge', { time: durationText(seconds * 1e9) })]),
-    ...(bytes === null ? [] : [t('trace.keepsSize', { size: mib(bytes) })]),
+    ...(bytes === null ? [] : [t('trace.keepsSize', { size: formatBytes(bytes) })]),
     ...(dropped === 0 ? [] : [t('trace.dropped', { samples: dropped.toLocaleString() })]),
   ].join(' · ');
 }
