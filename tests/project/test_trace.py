@@ -67,6 +67,7 @@ def test_only_what_is_recorded_needs_a_download() -> None:
     before = TraceData(records=(plain,)).digest()
     coloured = _record(
         comment="x",
+        trace_pou=True,
         appearance={"font_size": 20},
         channels=[{"variable": "P.a", "color": "#00ff00", "graph": "step"}],
     )

@@ -1,9 +1,10 @@
 """Load: what a hundred browsers cost a runtime with a 1 ms task, and the server between them.
 
 Each browser is a WebSocket client that watches 100 values at 10 Hz; the clients run in processes of their
-own. Beside them 64 variables are recorded in every cycle and read out as they come, and the flight recorder
-keeps its past. The baseline is the same task in the same run with nobody there. Shown are lateness of the
-task by percentiles of its histogram, and processor time of runtime and server in percent of a processor.
+own. Beside them a trace samples 64 variables in every cycle, whose long-term recording the server writes, and
+the flight recorder keeps its past. The baseline is the same task in the same run with nobody there. Shown are
+lateness of the task by percentiles of its histogram, and processor time of runtime and server in percent of a
+processor.
 """
 
 from __future__ import annotations
@@ -41,6 +42,8 @@ BROWSERS = 100
 VALUES = 100
 INTERVAL_MS = 100
 TRACED = 64
+READ = 10_000
+"""Samples of the recording that are read back at once."""
 PROCESSES = 4
 """That the browsers run in; each has an account of its own, as one user has at most 64 sockets."""
 SECONDS = 20.0
@@ -111,6 +114,12 @@ class Server:
         with self._opener.open(request, timeout=PATIENCE_S) as answer:
             text = answer.read()
         return json.loads(text) if text else None
+
+    def bytes(self, path: str) -> bytes:
+        """A binary answer of the API."""
+        request = urllib.request.Request(f"{self.address}/api/v1{path}")  # noqa: S310
+        with self._opener.open(request, timeout=PATIENCE_S) as answer:
+            return bytes(answer.read())
 
     def cookie(self, username: str) -> str:
         """The session of a new account that may look."""
@@ -288,23 +297,38 @@ async def _measure(client: RuntimeClient, server: Server, endpoint: Endpoint, se
     )
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Traced:
-    """64 variables recorded in each cycle."""
+    """What the long-term recording of the trace holds."""
 
-    frames: int = 0
-    lost: int = 0
+    samples: int
+    lost: int
+    gaps: int
+    """Samples before which others are missing."""
 
 
-async def _trace(client: RuntimeClient, traced: Traced) -> None:
-    symbols = await client.symbols()
-    places = [symbols.resolve(f"PLC_PRG.aValues[{number}]") for number in range(1, TRACED + 1)]
-    recorder = await client.record([(place.offset, place.size) for place in places], None, 1, 0)
-    last = None
-    async for frame in recorder:
-        traced.frames += 1
-        traced.lost += 0 if last is None else frame.cycle - last - 1
-        last = frame.cycle
+class Trace:
+    """64 variables traced in each cycle, and recorded by the server for as long as it lasts."""
+
+    def __init__(self, server: Server, runtime_id: str) -> None:
+        self._server = server
+        self._path = f"/runtimes/{runtime_id}/traces/Load"
+        channels = [{"variable": f"PLC_PRG.aValues[{number}]"} for number in range(1, TRACED + 1)]
+        data = {"records": [{"name": "Record1", "buffer": 10_000, "channels": channels}]}
+        server.ask("PUT", self._path, {"data": data})
+        server.ask("POST", f"{self._path}/recording", {"title": "Load"})
+
+    def end(self) -> Traced:
+        """Ends the recording and reads it back."""
+        recording = self._server.ask("DELETE", f"{self._path}/recording")
+        samples = recording["records"][0]["samples"]
+        gaps, first = 0, 0
+        while first < samples:
+            data = self._server.bytes(f"/recordings/{recording['id']}/samples?first={first}&count={READ}")
+            flags = data[-min(READ, samples - first) :]
+            gaps += sum(flags[1 if first == 0 else 0 :])
+            first += READ
+        return Traced(samples, recording["lost"], gaps)
 
 
 @dataclass(frozen=True, slots=True)
@@ -336,8 +360,7 @@ async def outcome(size: Size) -> Outcome:
                 idle = await _measure(client, server, endpoint, size.seconds)
                 browsers = await asyncio.to_thread(Browsers, server, runtime_id, size)
                 await asyncio.to_thread(browsers.ready)
-                traced = Traced()
-                tracing = asyncio.create_task(_trace(client, traced))
+                trace = await asyncio.to_thread(Trace, server, runtime_id)
                 began = time.monotonic()
                 browsers.tell()
                 loaded = await _measure(client, server, endpoint, size.seconds)
@@ -345,8 +368,7 @@ async def outcome(size: Size) -> Outcome:
                 lasted = time.monotonic() - began
                 seen = await asyncio.to_thread(browsers.seen)
                 past = (await client.call(GetFlightStatus())).count
-                tracing.cancel()
-                await asyncio.gather(tracing, return_exceptions=True)
+                traced = await asyncio.to_thread(trace.end)
             finally:
                 await client.close()
             return Outcome(idle, loaded, seen, traced, past, lasted)
@@ -370,8 +392,8 @@ def report(found: Outcome, size: Size) -> Report:
     remarks = (
         f"{size.browsers} browsers in {size.processes} processes on the same machine: {each}, at least "
         f"{seen.least / found.lasted:.1f}; {seen.wire_bytes / found.lasted / 1e6:.2f} MB/s in all",
-        f"{TRACED} variables recorded in every cycle: {found.traced.frames} frames, "
-        f"{found.traced.lost} lost; the flight recorder holds {found.past} cycles",
+        f"{TRACED} variables traced in every cycle and recorded by the server: "
+        f"{found.traced.samples} samples, {found.traced.lost} lost, {found.traced.gaps} gaps; the flight recorder holds {found.past} cycles",
     )
     return Report("load", "the same task with nobody there, same run", rows, BAR, remarks)
 

@@ -125,6 +125,10 @@ class TraceRecord(Data):
     trigger: TraceTrigger = TraceTrigger()
     buffer: StrictInt = Field(default=100, ge=1, le=MOST_POINTS, description="Samples in the ring.")
     comment: Text = ""
+    trace_pou: StrictBool = Field(
+        default=False,
+        description="A program for visualizations (TRC-29); kept, and not made yet.",
+    )
     appearance: TraceAppearance = TraceAppearance()
     channels: Annotated[tuple[TraceChannel, ...], Field(max_length=MOST_CHANNELS)] = ()
 

@@ -11610,6 +11610,12 @@ export interface components {
              */
             task?: string;
             /**
+             * Trace Pou
+             * @description A program for visualizations (TRC-29); kept, and not made yet.
+             * @default false
+             */
+            trace_pou?: boolean;
+            /**
              * @default {
              *       "edge": "none",
              *       "level": "",
@@ -11699,6 +11705,12 @@ export interface components {
              * @default
              */
             task: string;
+            /**
+             * Trace Pou
+             * @description A program for visualizations (TRC-29); kept, and not made yet.
+             * @default false
+             */
+            trace_pou: boolean;
             /**
              * @default {
              *       "edge": "none",

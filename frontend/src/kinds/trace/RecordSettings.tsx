@@ -129,6 +129,14 @@ export function RecordSettings({ record, context, onRecord, onUsual }: RecordSet
           />
         )}
       </Field>
+      <Checkbox
+        checked={record.trace_pou}
+        disabled={context.disabled}
+        onChecked={(trace_pou) => onRecord({ trace_pou })}
+      >
+        {t('trace.tracePou')}
+      </Checkbox>
+      <p className={styles.muted}>{t('trace.tracePouHint')}</p>
       <h3>{t('trace.trigger')}</h3>
       <SettingText
         label={t('trace.triggerVariable')}

@@ -81,6 +81,7 @@ export function newRecord(records: readonly TraceRecord[], appearance: Appearanc
     trigger: { variable: '', edge: 'none', level: '', position: 50 },
     buffer: 100,
     comment: '',
+    trace_pou: false,
     appearance,
     channels: [],
   };
