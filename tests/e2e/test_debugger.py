@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from .conftest import Server
-from .workbench import implementation, log_in, open_object, open_project, show_panel, status_bar
+from .workbench import implementation, log_in, open_object, open_project, show_panel, status_bar, watch
 
 pytestmark = pytest.mark.e2e
 
@@ -97,3 +97,43 @@ def test_a_breakpoint_with_conditions_is_edited_in_its_dialog(debugged: Page, se
     if "halted" in status_bar(page).inner_text():
         page.keyboard.press("F5")
     expect(status_bar(page)).to_contain_text("running")
+
+
+def test_a_variable_halts_the_program_when_it_changes(debugged: Page) -> None:
+    """From the menu of a watch list, of the declaration and of the text."""
+    page = debugged
+    dialog = page.get_by_role("dialog", name="Data breakpoint")
+    entry = page.get_by_role("menuitem", name="Break When Value Changes")
+    row = watch(page, "PersistentVars.udiOperatingTime")
+    expect(row.get_by_role("gridcell").nth(2)).not_to_have_text("")
+    row.get_by_role("gridcell").first.click(button="right")
+    entry.click()
+    expect(dialog.get_by_label("Variable")).to_have_value("PersistentVars.udiOperatingTime")
+    dialog.get_by_role("button", name="Apply").click()
+    expect(status_bar(page)).to_contain_text("halted", timeout=60_000)
+    expect(
+        page.get_by_text("'PersistentVars.udiOperatingTime' has changed before this statement")
+    ).to_be_visible()
+    show_panel(page, "Breakpoints")
+    page.get_by_role("grid", name="Breakpoints").get_by_role("row").filter(
+        has_text="udiOperatingTime"
+    ).click()
+    page.keyboard.press("Delete")
+    page.keyboard.press("F5")
+    expect(status_bar(page)).to_contain_text("running")
+
+    open_object(page, "PLC_PRG")
+    declared = page.get_by_role("treegrid", name="PLC_PRG").get_by_role("row")
+    declared.filter(has_text="iLoaded").get_by_role("gridcell").first.click(button="right")
+    entry.click()
+    expect(dialog.get_by_label("Variable")).to_have_value("PLC_PRG.iLoaded")
+    page.keyboard.press("Escape")
+    declared.filter(has_text="HORN_TIME").get_by_role("gridcell").first.click(button="right")
+    expect(entry).to_have_attribute("aria-disabled", "true")
+    page.keyboard.press("Escape")
+
+    go_to(page, 1)
+    implementation(page).get_by_text("xSafe").first.click(button="right")
+    entry.click()
+    expect(dialog.get_by_label("Variable")).to_have_value("PLC_PRG.xSafe")
+    page.keyboard.press("Escape")

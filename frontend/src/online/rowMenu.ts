@@ -1,11 +1,13 @@
 /** Menu entries that every online table offers for its rows. */
 import type { KeyboardEvent } from 'react';
-import { Copy, Eye, LockKeyhole, PencilLine, Search, Waypoints } from 'lucide-react';
+import { CircleDotDashed, Copy, Eye, LockKeyhole, PencilLine, Search, Waypoints } from 'lucide-react';
 import type { t as Text } from '@/i18n';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { runCommand } from '@/workbench/run';
 import type { MenuEntry } from '@/ui/Menu';
+import { guard } from '@/ui/notices';
 import { copyChosen } from './copyRows';
+import { breakOnChange, whyNoDataBreakpoint } from './dataBreakpoint';
 import { prepare, preparedLiteral } from './prepared';
 import { actOnSymbol } from '@/workbench/symbolActs';
 import type { OnlineRow } from './treeRows';
@@ -72,6 +74,14 @@ export function commonEntries(t: typeof Text, session: OnlineSession | null, row
       text: t('online.unprepare'),
       disabledReason: prepared ? null : t('reason.nothingPrepared'),
       run: () => runtimeId !== null && expressions.forEach((expression) => prepare(runtimeId, expression, null)),
+    },
+    {
+      kind: 'item',
+      key: 'breakOnChange',
+      text: t('debugger.breakOnChange'),
+      icon: CircleDotDashed,
+      disabledReason: single === null ? one : whyNoDataBreakpoint(runtimeId, single),
+      run: () => runtimeId !== null && single !== null && void guard(() => breakOnChange(runtimeId, single)),
     },
     { kind: 'line', key: 'watch-line' },
     {

@@ -27,6 +27,7 @@ import { ilMenu } from './menu';
 import { useRowMessages } from './messages';
 import { parseRows, rowAt } from './rows';
 import { ilSettings } from './settings';
+import { useRowBreakpoints } from './useRowBreakpoints';
 import { useRowDrag } from './useRowDrag';
 import { useIlActs, type IlEditing } from './useIlActs';
 import { usePrepare } from './usePrepare';
@@ -62,6 +63,7 @@ export function IlTable(props: IlTableProps) {
   const prepare = usePrepare(runtimeId);
   const bookmarked = useBookmarkedLines({ objectId: object.id, part: 'implementation' });
   const marked = useMemo(() => new Set(bookmarked.map((line) => rowAt(rows, line))), [bookmarked, rows]);
+  const breakpoints = useRowBreakpoints(runtimeId, object.id, rows);
   const fault = faultLine(session?.runtime?.exception, object.id, 'implementation');
 
   const { cursor, selected } = selection;
@@ -155,7 +157,16 @@ export function IlTable(props: IlTableProps) {
     const shown = rows[row]!;
     const name = operandName(shown).toUpperCase();
     const found = messages.get(row) ?? NO_MESSAGES;
-    return { t, row: shown, facts: facts.get(name) ?? null, messages: found, bookmark: marked.has(row) };
+    const { toggle, marks } = breakpoints;
+    return {
+      t,
+      row: shown,
+      facts: facts.get(name) ?? null,
+      messages: found,
+      bookmark: marked.has(row),
+      breakpoint: marks.get(row),
+      onBreakpoint: toggle === null ? null : () => toggle(row),
+    };
   };
   const valueCell = (row: number) => {
     if (runtimeId === null || rows[row] === undefined) return null;
@@ -184,6 +195,8 @@ export function IlTable(props: IlTableProps) {
       shown.excluded ? 'excluded' : '',
       passed ? 'executed' : '',
       shown.line === fault ? 'fault' : '',
+      breakpoints.marks.get(row)?.look === 'active' ? 'break' : '',
+      breakpoints.current === row ? (breakpoints.innermost ? 'halted' : 'caller') : '',
     ];
     return marks.filter(Boolean).join(' ') || undefined;
   };

@@ -3,6 +3,7 @@ import type { ReactNode } from 'react';
 import { RowMark } from '@/bookmarks/RowMark';
 import type { t as Text } from '@/i18n';
 import type { GridColumn } from '@/ui/grid/Grid';
+import debug from '@/workbench/debugger/Debugger.module.css';
 import { isOperator } from './instructionList';
 import { textOf, tokenize } from '@/iec/lexer';
 import type { OperandFacts } from './facts';
@@ -10,6 +11,7 @@ import styles from './IlTable.module.css';
 import type { RowMessage } from './messages';
 import { cellText, type Cell, type IlColumn, type IlRow } from './rows';
 import type { IlSettings } from './settings';
+import type { RowBreakpoint } from './useRowBreakpoints';
 
 export type ColumnId = 'line' | 'operator' | 'operand' | 'value' | 'address' | 'symbolComment' | 'comment';
 
@@ -26,7 +28,7 @@ export function ilColumns(t: typeof Text, chosen: Omit<IlSettings, 'view'>, onli
     ...more,
   });
   return [
-    column('line', 52, { align: 'right' }),
+    column('line', online ? 68 : 52, { align: 'right' }),
     column('operator', 132, { code: true }),
     column('operand', 190, { code: true, grow: true }),
     ...(online ? [column('value', 150, { grow: true })] : []),
@@ -53,19 +55,17 @@ interface CellView {
   facts: OperandFacts | null;
   messages: readonly RowMessage[];
   bookmark: boolean;
+  breakpoint: RowBreakpoint | undefined;
+  /** Sets or removes a breakpoint; null while logged out. */
+  onBreakpoint: (() => void) | null;
 }
 
 /** How a cell looks while it is not edited; values come from elsewhere. */
-export function cellContent({ t, row, facts, messages, bookmark }: CellView, column: ColumnId): ReactNode {
+export function cellContent(view: CellView, column: ColumnId): ReactNode {
+  const { t, row, facts, messages } = view;
   switch (column) {
     case 'line':
-      return (
-        <>
-          {bookmark && <RowMark />}
-          <Mark messages={messages} />
-          <span className={styles.line}>{row.line}</span>
-        </>
-      );
+      return <LineCell {...view} />;
     case 'operator':
       return <Operator row={row} messages={messages} />;
     case 'operand':
@@ -84,6 +84,40 @@ export function cellContent({ t, row, facts, messages, bookmark }: CellView, col
     default:
       return null;
   }
+}
+
+/** Marks and number of a row; while logged in a click on the number sets a breakpoint, as beside a text. */
+function LineCell({ t, row, messages, bookmark, breakpoint, onBreakpoint }: CellView) {
+  return (
+    <>
+      {breakpoint !== undefined && (
+        <i
+          className={`${styles.breakpoint} ${debug.dot}`}
+          data-look={breakpoint.look}
+          role="img"
+          aria-label={[t('debugger.breakpoint'), breakpoint.hint].filter(Boolean).join('\n')}
+        />
+      )}
+      {bookmark && <RowMark />}
+      <Mark messages={messages} />
+      {onBreakpoint === null ? (
+        <span className={styles.line}>{row.line}</span>
+      ) : (
+        <button
+          type="button"
+          tabIndex={-1}
+          className={`${styles.line} ${styles.lineButton}`}
+          aria-label={t('il.breakpointAt', { line: row.line })}
+          onClick={(event) => {
+            event.stopPropagation();
+            onBreakpoint();
+          }}
+        >
+          {row.line}
+        </button>
+      )}
+    </>
+  );
 }
 
 function firstLine(text: string): string {
@@ -173,9 +207,10 @@ function Mark({ messages }: { messages: readonly RowMessage[] }) {
 }
 
 /** The tooltip of a cell: of an operand its declaration (FBD-04), the messages of the row. */
-export function cellHint({ row, facts, messages }: CellView, column: ColumnId): string | undefined {
+export function cellHint({ row, facts, messages, breakpoint }: CellView, column: ColumnId): string | undefined {
   const lines =
     column === 'line' || column === 'operator' || column === 'operand' ? messages.map((m) => m.message) : [];
+  if (column === 'line' && breakpoint?.hint) lines.unshift(breakpoint.hint);
   if (column === 'operand' && row.operand !== null) {
     lines.unshift(
       row.operand.text + (facts === null ? '' : ` : ${facts.type}${facts.address ? ` (${facts.address})` : ''}`),

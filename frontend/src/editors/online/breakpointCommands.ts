@@ -1,5 +1,6 @@
 /** Commands of the debugger that act on the line of the cursor. */
-import { ArrowRightToLine, CircleDot, CornerDownRight } from 'lucide-react';
+import { ArrowRightToLine, CircleDot, CircleDotDashed, CornerDownRight } from 'lucide-react';
+import { mayBreakOnChange } from '@/online/dataBreakpoint';
 import { panelPlace } from '@/text/focus';
 import { menuGroup, registerCommands, type Command, type Enablement } from '@/workbench/commands';
 import { connected, editor, engineer, online, when } from '@/workbench/conditions';
@@ -65,6 +66,13 @@ const commands: Command[] = [
       keys: ['Alt+F9'],
       enabled: mayDebug,
       run: onLine(editBreakpointAt),
+    },
+    {
+      id: 'debug.breakOnChange',
+      title: 'debugger.breakOnChange',
+      icon: CircleDotDashed,
+      delegated: true,
+      enabled: mayBreakOnChange,
     },
   ),
   ...menuGroup(

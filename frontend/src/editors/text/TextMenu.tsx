@@ -11,7 +11,16 @@ import { entriesOf } from '@/workbench/frame/menuEntries';
 import { runCommand } from '@/workbench/run';
 
 const SYMBOL_COMMANDS = ['st.goToDefinition', 'st.peekReferences', 'st.crossReferences', null] as const;
-const VALUE_COMMANDS = ['online.prepareValue', 'online.writeValues', 'online.forceValues', null] as const;
+const VALUE_COMMANDS = [
+  'online.prepareValue',
+  'online.writeValues',
+  'online.forceValues',
+  null,
+  'debug.toggleBreakpoint',
+  'debug.breakOnChange',
+  'debug.runToCursor',
+  null,
+] as const;
 const TEXT_COMMANDS = [
   'st.inputAssistant',
   'st.autoDeclare',

@@ -8,6 +8,8 @@ import type { AppliedEdits } from '@/lsp/edits';
 import { activeLanguageClient } from '@/lsp/session';
 import { renameSymbol, renameTarget } from '@/lsp/rename';
 import { crossReferences } from '@/lsp/symbols';
+import { breakOnChange } from '@/online/dataBreakpoint';
+import { objectSession } from '@/online/useObjectSession';
 import { useWatchLists } from '@/online/watch/lists';
 import { addExpressions } from '@/online/watch/ownLists';
 import { openDialog } from '@/ui/dialogs';
@@ -177,6 +179,14 @@ export function variablesOf(
   return rows
     .map((row) => row.name.text)
     .flatMap((name) => (temporary.has(name.toUpperCase()) ? [] : `${path}.${name}`));
+}
+
+/** Halts when the variable at the cursor changes. */
+export async function breakOnChangeAt(panel: TextPanel, chosen: readonly string[]): Promise<void> {
+  const runtimeId = objectSession(panel.projectId, panel.object.id)?.runtimeId;
+  const expression = chosen[0];
+  if (expression === undefined) notify({ tone: 'info', title: t('debugger.reason.noVariableHere') });
+  else if (runtimeId !== undefined) await breakOnChange(runtimeId, expression);
 }
 
 /** Paths of the variable at the cursor, or of those in the selection, as the runtime knows them. */

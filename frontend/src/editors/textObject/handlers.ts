@@ -6,6 +6,7 @@ import { setDirty } from '@/workbench/selection';
 import {
   addToWatch,
   autoDeclare,
+  breakOnChangeAt,
   inputAssistant,
   rename,
   revisions,
@@ -75,6 +76,13 @@ export function textHandlers(panelId: string, panel: TextPanel): Handlers {
       run: (argument) => {
         const place = panelPlace(panelId);
         return addToWatch(panelChosen(panelId) ?? (place === null ? [] : watchable(panel, place)), argument);
+      },
+    },
+    'debug.breakOnChange': {
+      run: () => {
+        const place = panelPlace(panelId);
+        const chosen = panelChosen(panelId) ?? (place === null ? [] : watchable(panel, place));
+        return breakOnChangeAt(panel, chosen);
       },
     },
     ...Object.fromEntries(
