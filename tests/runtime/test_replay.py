@@ -275,3 +275,30 @@ def test_a_real_run_ends_in_its_fault_again() -> None:
     assert played.fault is not None
     assert played.fault.cycle == recording.exception.cycle
     assert played.values == {"PLC_PRG.recipe": "0"}
+
+
+def test_a_difference_beside_other_tasks_of_real_time_says_so() -> None:
+    """When their cycles came is not recorded; on virtual time it follows from intervals and priorities."""
+    text = """
+VAR_GLOBAL a, b : DINT; END_VAR
+PROGRAM Fast a := a + 1; END_PROGRAM
+PROGRAM Slow b := a; END_PROGRAM
+"""
+    slow = Task("Slow", interval_ns=30 * MS, priority=5, programs=("Slow",))
+    fast = Task("Fast", interval_ns=10 * MS, priority=3, programs=("Fast",))
+    for tasks, virtual, told in (
+        ((slow, fast), False, True),
+        ((slow, fast), True, False),
+        ((fast,), False, False),
+    ):
+        with LocalRuntime(build(text, tasks)) as runtime:
+            runtime.run(20)
+            runtime.write("a", 1000)
+            runtime.run(5)
+            recording = msgspec.structs.replace(runtime.plc.flight_recording(), virtual=virtual)
+        assert replay(recording).notes == ()
+        played = replay(msgspec.structs.replace(recording, writes=[]))
+        assert played.difference is not None
+        assert played.difference.cycle == 21
+        notes = [note for note in played.notes if "in which order is not recorded: from cycle 21" in note]
+        assert len(notes) == told, (tasks, virtual)

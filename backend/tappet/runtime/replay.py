@@ -158,6 +158,11 @@ class _Replay:
                 difference = self._compare(one.cycle, image)
         if not faulted and until is None and self.recording.exception is not None:
             faulted = self._run_out()  # of a task that fails between two cycles of the bus cycle task
+        if difference is not None and code is None and not self.recording.virtual and self._tasks_beside():
+            self.notes.append(
+                f"several tasks ran in real time, and in which order is not recorded: from cycle"
+                f" {difference.cycle} on the replay may differ for that alone"
+            )
         values = {expression: self.runtime.literal(expression) for expression in show}
         return Replayed(
             cycles=number,
@@ -168,6 +173,10 @@ class _Replay:
             notes=tuple(self.notes),
             values=values,
         )
+
+    def _tasks_beside(self) -> bool:
+        """Whether other tasks than the bus cycle task run programs."""
+        return any(task.programs for number, task in enumerate(self.package.tasks) if number != self.bus)
 
     def _count(self, until: int | None) -> int:
         cycles = self.recording.cycles[1:]
