@@ -183,6 +183,26 @@ PROGRAM OnEvent c := c XOR a; END_PROGRAM
         assert played.difference is None, played.difference
 
 
+@pytest.mark.parametrize("after", range(8, 14))
+def test_forces_hold_from_the_first_kept_moment_on(after: int) -> None:
+    """Also in a task that comes behind the bus cycle task in that moment, wherever in the recording it is
+    that they end."""
+    count = "VAR n : DINT; END_VAR n := n + 1; END_PROGRAM"
+    tasks = [
+        Task("Fast", interval_ns=10 * MS, priority=1, programs=("Fast",)),
+        Task("Late", interval_ns=10 * MS, priority=2, programs=("Late",)),
+    ]
+    package = build(f"PROGRAM Fast {count} PROGRAM Late {count}", tasks)
+    with LocalRuntime(package, flight=FlightSettings(seconds=0.1)) as runtime:
+        runtime.force("Late.n", 3)
+        runtime.run(20)
+        runtime.unforce()
+        runtime.run(after)
+        recording = runtime.plc.flight_recording()
+    played = replay(recording, show=["Late.n"])
+    assert (played.difference, played.values) == (None, {"Late.n": str(3 + after)})
+
+
 def test_code_that_was_mended_no_longer_fails() -> None:
     recording = _record(build(BOTTLE, MAIN))
     mended = _built_on(recording.code(), FIXED)

@@ -141,6 +141,7 @@ class _Replay:
         if code is not None:
             self._change(code)
         self.application.run()
+        self._force(self.recording.cycles[0].cycle)
         self._run_due()  # tasks that come behind the bus cycle task in the moment of the first cycle
         number = 0
         difference = None
@@ -268,11 +269,7 @@ class _Replay:
         if inputs is not None and inputs.size:
             data = image[inputs.offset : inputs.offset + inputs.size]
             application.put_inputs(0, data[: application.area("I")[1]])
-        while self.forces and self.forces[0].cycle <= cycle:
-            application.forces.release(None)
-            for value in self._placed(self.forces.pop(0).values):
-                application.forces.set(value, b"", NOBODY)
-            application.publish_forces()
+        self._force(cycle)
         waiting = []
         for write in self.written:
             task = application.contexts.tasks[write.task]
@@ -283,6 +280,15 @@ class _Replay:
                 batch = ValueList(application.executive.layouts, application.image.address, values)
                 application.executive.apply_values(batch.address)
         self.written = waiting
+
+    def _force(self, cycle: int) -> None:
+        """The forces that were valid in a cycle of the bus cycle task."""
+        application = self.application
+        while self.forces and self.forces[0].cycle <= cycle:
+            application.forces.release(None)
+            for value in self._placed(self.forces.pop(0).values):
+                application.forces.set(value, b"", NOBODY)
+            application.publish_forces()
 
     def _runs_now(self, number: int) -> bool:
         """Whether a task comes with the next cycle of the bus cycle task."""
