@@ -195,3 +195,84 @@ def test_a_real_number_is_whole_or_stays_out(value: float, kind: Any, size: Any)
     assert fits == expected
     if fits:
         assert int.from_bytes(after, "little", signed=kind == "int") == value
+
+
+POINTED = """
+TYPE S : STRUCT a : INT; END_STRUCT END_TYPE
+INTERFACE I_Motor END_INTERFACE
+FUNCTION_BLOCK Motor IMPLEMENTS I_Motor
+VAR n : INT; END_VAR
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Fast EXTENDS Motor
+VAR m : INT; END_VAR
+END_FUNCTION_BLOCK
+VAR_GLOBAL gS : S; END_VAR
+PROGRAM Targets
+VAR {targets} END_VAR
+END_PROGRAM
+PROGRAM Pointers
+VAR
+    pInt : POINTER TO INT; pReal : POINTER TO LREAL; pAny : POINTER TO BYTE; pS : POINTER TO S;
+    rMotor : REFERENCE TO Motor; pFast : POINTER TO Fast; iMotor : I_Motor;
+    row : ARRAY [1..3] OF POINTER TO INT; pp : POINTER TO POINTER TO INT;
+END_VAR
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "expected"),
+    [
+        # nothing moves: nothing is said
+        ("x : INT;", "x : INT := 3;", {}),
+        # an INT goes, an LREAL moves
+        (
+            "x : INT; y : LREAL;",
+            "y : LREAL;",
+            {"pInt": "cleared", "row[1..3]": "cleared", "pAny": "cleared", "pReal": "follows"},
+        ),
+        # all stay alive at other places
+        ("x : INT;", "n : LREAL; x : INT;", {"pInt": "follows", "row[1..3]": "follows", "pAny": "follows"}),
+        # an instance goes: it can be reached by its type, its base, an interface, and by what it holds
+        (
+            "f : Fast; y : LREAL;",
+            "y : LREAL;",
+            {
+                "pInt": "cleared",
+                "row[1..3]": "cleared",
+                "pAny": "cleared",
+                "rMotor": "cleared",
+                "pFast": "cleared",
+                "iMotor": "cleared",
+                "pReal": "follows",
+            },
+        ),
+        # an INT that becomes a DINT is another variable to a pointer
+        ("x : INT;", "x : DINT;", {"pInt": "cleared", "row[1..3]": "cleared", "pAny": "cleared"}),
+        # what moves are the elements of an array
+        (
+            "s : ARRAY [1..2] OF S;",
+            "n : LREAL; s : ARRAY [1..9] OF S;",
+            {"pS": "follows", "pInt": "follows", "row[1..3]": "follows", "pAny": "follows"},
+        ),
+    ],
+)
+def test_pointers_to_what_moves_or_goes(before: str, after: str, expected: dict[str, str]) -> None:
+    old = build(POINTED.format(targets=before))
+    new = build(POINTED.format(targets=after), old)
+    reasons = {"cleared": "target_lost", "follows": "target_moved"}
+    found = {row.path: row for row in change_report(old, new).rows if row.effect in reasons}
+    assert {path: row.effect for path, row in found.items()} == {
+        f"Pointers.{name}": effect for name, effect in expected.items()
+    }
+    assert all(row.reason == reasons[row.effect] for row in found.values())
+
+
+def test_a_pointer_that_comes_with_the_change_is_no_concern() -> None:
+    old = build(text("x : INT; y : INT;"))
+    new = build(text("y : INT; p : POINTER TO INT;"), old)
+    assert {row.path: row.effect for row in change_report(old, new).rows} == {
+        "PLC_PRG.x": "lost",
+        "PLC_PRG.y": "moved",
+        "PLC_PRG.p": "initialised",
+    }

@@ -1,19 +1,21 @@
 """What an online change does to each variable, and why: for the person who decides about it.
 
 A variable that keeps place, type and initial value is not mentioned. The rows follow the declarations; equal
-elements of an array share one, as in `PLC_PRG.row[1..3].extra`.
+elements of an array share one, as in `PLC_PRG.row[1..3].extra`. Pointers to what moves or goes come last.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from itertools import chain
 from typing import Literal
 
 from tappet.codegen.constants import CONSTANT
 from tappet.codegen.converted_values import convertible
 from tappet.codegen.online import INIT, INIT_OTHER, NO_COPY, TypePairs
 from tappet.codegen.package import CodePackage
-from tappet.codegen.symbol_types import MemberInfo, TypeInfo
+from tappet.codegen.pointer_changes import pointer_rows
+from tappet.codegen.symbol_types import MemberInfo, TypeInfo, user_members
 from tappet.codegen.variable_changes import ChangeReport, Effect, Reason, VariableChange
 
 MOST_ROWS = 5000
@@ -28,7 +30,7 @@ def change_report(old: CodePackage, new: CodePackage) -> ChangeReport:
         return ChangeReport()
     rows: list[VariableChange] = []
     omitted = 0
-    for row in _Comparison(old, new).rows():
+    for row in chain(_Comparison(old, new).rows(), pointer_rows(old, new)):
         if len(rows) < MOST_ROWS:
             rows.append(row)
         else:
@@ -72,7 +74,7 @@ class _Comparison:
     def _all(
         self, path: str, type_: TypeInfo, effect: Effect, reason: Reason, package: CodePackage
     ) -> Iterator[VariableChange]:
-        for member in _shown(type_.members):
+        for member in user_members(type_.members):
             yield self._row(f"{path}.{member.name}", package, member.type, effect, reason, member)
 
     def _row(
@@ -110,14 +112,14 @@ class _Comparison:
         self, path: str, old: TypeInfo, old_at: int, new: TypeInfo, new_at: int
     ) -> Iterator[VariableChange]:
         known = {m.name.upper(): m for m in old.members}
-        for member in _shown(new.members):
+        for member in user_members(new.members):
             name = f"{path}.{member.name}"
             before = known.pop(member.name.upper(), None)
             if before is None:
                 yield self._row(name, self.after, member.type, "initialised", "new", member)
                 continue
             yield from self._member(name, before, old_at, member, new_at)
-        for gone in _shown(known.values()):
+        for gone in user_members(known.values()):
             yield self._row(f"{path}.{gone.name}", self.before, gone.type, "lost", "removed", gone)
 
     def _member(
@@ -218,7 +220,7 @@ class _Comparison:
             yield self._row(path, self.after, number, "kept", "initial_value", member)
             return
         known = {m.name.upper(): m for m in old.members}
-        for inner in _shown(new.members):
+        for inner in user_members(new.members):
             past = known[inner.name.upper()]
             if inner.absolute or CONSTANT in inner.flags:
                 continue
@@ -242,12 +244,3 @@ class _Comparison:
     @staticmethod
     def _bit(package: CodePackage, at: int, bit: int) -> int:
         return package.initial_image[at] >> bit & 1
-
-
-def _shown(members: Iterable[MemberInfo]) -> Iterator[MemberInfo]:
-    """Members that are variables of their own, and of the user."""
-    return (
-        m
-        for m in members
-        if m.section != "VAR_IN_OUT" and "HIDDEN" not in m.flags and not m.name.startswith("__")
-    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import Annotated
 
 from msgspec import Meta, Struct
@@ -54,3 +55,14 @@ class TypeInfo(Struct, frozen=True, array_like=True):
     def leaf(self) -> bool:
         """Whether a value of this type has no parts to open."""
         return self.kind not in ("array", "struct", "union", "fb", "program", "gvl")
+
+
+def user_members(members: Iterable[MemberInfo]) -> Iterator[MemberInfo]:
+    """Members that are variables of their own, and of the user."""
+    return (
+        member
+        for member in members
+        if member.section != "VAR_IN_OUT"
+        and "HIDDEN" not in member.flags
+        and not member.name.startswith("__")
+    )

@@ -6,10 +6,11 @@ from typing import Literal
 
 from msgspec import Struct
 
-Effect = Literal["initialised", "converted", "moved", "kept", "lost"]
+Effect = Literal["initialised", "converted", "moved", "kept", "lost", "cleared", "follows"]
 Reason = Literal[
     "new", "new_elements", "type_changed", "no_copy", "init_on_change", "constant", "address",
     "string_shortened", "place", "initial_value", "removed", "elements_removed",
+    "target_lost", "target_moved",
 ]  # fmt: skip
 
 

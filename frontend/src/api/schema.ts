@@ -5116,17 +5116,17 @@ export interface components {
             calls: string[];
             /**
              * Effect
-             * @description `initialised`: begins with its initial value; `converted`: its value comes to the new type where it fits; `moved`: keeps its value at another place; `kept`: stays, without the initial value that is now declared; `lost`: is there no more.
+             * @description `initialised`: begins with its initial value; `converted`: its value comes to the new type where it fits; `moved`: keeps its value at another place; `kept`: stays, without the initial value that is now declared; `lost`: is there no more; `cleared`: a pointer that becomes 0 where it points to what is lost; `follows`: one that is changed where it points to what moves.
              * @enum {string}
              */
-            effect: "initialised" | "converted" | "moved" | "kept" | "lost";
+            effect: "initialised" | "converted" | "moved" | "kept" | "lost" | "cleared" | "follows";
             /** Path */
             path: string;
             /**
              * Reason
              * @enum {string}
              */
-            reason: "new" | "new_elements" | "type_changed" | "no_copy" | "init_on_change" | "constant" | "address" | "string_shortened" | "place" | "initial_value" | "removed" | "elements_removed";
+            reason: "new" | "new_elements" | "type_changed" | "no_copy" | "init_on_change" | "constant" | "address" | "string_shortened" | "place" | "initial_value" | "removed" | "elements_removed" | "target_lost" | "target_moved";
             /**
              * Remanent
              * @description RETAIN or PERSISTENT.

@@ -95,7 +95,8 @@ class ChangedVariable(Reply):
     effect: Effect = Field(
         description="`initialised`: begins with its initial value; `converted`: its value comes to the new "
         "type where it fits; `moved`: keeps its value at another place; `kept`: stays, without the initial "
-        "value that is now declared; `lost`: is there no more."
+        "value that is now declared; `lost`: is there no more; `cleared`: a pointer that becomes 0 where it "
+        "points to what is lost; `follows`: one that is changed where it points to what moves."
     )
     reason: Reason
     type: str = Field(description="Afterwards; that before, for a variable that is lost.")

@@ -1,4 +1,13 @@
-import { CircleDot, CircleMinus, MoveRight, Replace, TextCursorInput, type LucideIcon } from 'lucide-react';
+import {
+  CircleDot,
+  CircleMinus,
+  CornerDownRight,
+  MoveRight,
+  Replace,
+  TextCursorInput,
+  Unlink,
+  type LucideIcon,
+} from 'lucide-react';
 import { useMemo, useState } from 'react';
 import type { LoginAnswer } from '@/api/types';
 import { actOnSymbol } from '../symbolActs';
@@ -13,6 +22,7 @@ import {
   EFFECTS,
   effectCounts,
   hiddenAtFirst,
+  retainLayoutChanges,
   shownChanges,
   typeText,
   type ChangedVariable,
@@ -23,9 +33,11 @@ import styles from './ChangesTable.module.css';
 
 const ICONS: Record<Effect, LucideIcon> = {
   lost: CircleMinus,
+  cleared: Unlink,
   initialised: CircleDot,
   converted: Replace,
   kept: TextCursorInput,
+  follows: CornerDownRight,
   moved: MoveRight,
 };
 
@@ -45,6 +57,7 @@ export function ChangesTable({ answer, onLeave }: ChangesTableProps) {
   const hidden = chosen?.of === answer ? chosen.hidden : hiddenAtFirst(changes);
   const counts = useMemo(() => effectCounts(changes), [changes]);
   const rows = useMemo(() => shownChanges(changes, hidden, search), [changes, hidden, search]);
+  const retain = retainLayoutChanges(changes);
   const columns: Column<ChangedVariable>[] = [
     {
       id: 'path',
@@ -118,10 +131,11 @@ export function ChangesTable({ answer, onLeave }: ChangesTableProps) {
           empty={<Empty title={t('changes.noneShown')} />}
         />
       </div>
-      {(counts.moved > 0 || answer.changes_omitted > 0 || answer.reserve) && (
+      {(counts.moved > 0 || retain || answer.changes_omitted > 0 || answer.reserve) && (
         <p className={styles.note}>
           {[
             counts.moved > 0 && t('changes.pointers'),
+            retain && t('changes.retain'),
             answer.reserve &&
               t('changes.reserve', {
                 needed: bytesText(answer.reserve.needed),

@@ -5,18 +5,35 @@ export type ChangedVariable = LoginAnswer['changes'][number];
 export type Effect = ChangedVariable['effect'];
 
 /** In the order of their weight for who decides. */
-export const EFFECTS = ['lost', 'initialised', 'converted', 'kept', 'moved'] as const satisfies readonly Effect[];
+export const EFFECTS = [
+  'lost',
+  'cleared',
+  'initialised',
+  'converted',
+  'kept',
+  'follows',
+  'moved',
+] as const satisfies readonly Effect[];
 
 export function effectCounts(changes: readonly ChangedVariable[]): Record<Effect, number> {
-  const counts = { lost: 0, initialised: 0, converted: 0, kept: 0, moved: 0 };
+  const counts = { lost: 0, cleared: 0, initialised: 0, converted: 0, kept: 0, follows: 0, moved: 0 };
   for (const { effect } of changes) counts[effect] += 1;
   return counts;
 }
 
-/** Variables that merely lie somewhere else say little where others lose something. */
+const QUIET: readonly Effect[] = ['follows', 'moved'];
+
+/** Variables that merely lie somewhere else, and pointers to them, say little where others lose something. */
 export function hiddenAtFirst(changes: readonly ChangedVariable[]): ReadonlySet<Effect> {
-  const { moved } = effectCounts(changes);
-  return new Set(moved > 0 && moved < changes.length ? ['moved'] : []);
+  const counts = effectCounts(changes);
+  const quiet = QUIET.filter((effect) => counts[effect] > 0);
+  const all = quiet.reduce((sum, effect) => sum + counts[effect], 0);
+  return new Set(all < changes.length ? quiet : []);
+}
+
+/** Whether remanent variables get other places: their file is written anew. */
+export function retainLayoutChanges(changes: readonly ChangedVariable[]): boolean {
+  return changes.some(({ remanent, effect }) => remanent && effect !== 'kept');
 }
 
 export function shownChanges(
