@@ -150,7 +150,7 @@ def test_and_then_guards_what_stands_behind_it(runtime: LocalRuntime) -> None:
         ("PLC_PRG.d +", "expected"),
         ("", "missing"),
         ("Ready", "several enumerations"),
-        ("F(1)", "only ABS, SQRT, MIN, MAX can"),
+        ("F(1)", "only ABS, SQRT, MIN, MAX, LIMIT can"),
         ("PLC_PRG.numbers[9]", "outside 0..3"),
         ("PLC_PRG.x < PLC_PRG.y", "compared with = and <>"),
         ("1.5 MOD 2", "MOD needs integers"),

@@ -10,7 +10,7 @@ export type Operand = boolean | bigint | number;
 export interface Computed {
   /** The variables in it, each once. */
   readonly operands: readonly string[];
-  /** Null where a variable has no value, or there is no result: a division by zero, a sum of BOOL. */
+  /** Null where a variable has no value, or there is no result: a whole number divided by zero, a sum of BOOL. */
   readonly evaluate: (valueOf: (expression: string) => Operand | null) => Operand | null;
 }
 
@@ -20,7 +20,7 @@ const TOKEN =
   /\s*(?:(\d+#[0-9A-Fa-f_]+)|(\d[\d_]*\.\d[\d_]*(?:[eE][+-]?\d+)?|\d[\d_]*[eE][+-]?\d+)|(\d[\d_]*)|(%?[A-Za-z_][\w%]*(?:\.\w+|\[[^\][]*\]|\^)*)|(\*\*|<>|<=|>=|[-+*/()<>=&,]))/y;
 const FUNCTIONS: Readonly<Record<string, (values: readonly Operand[]) => Operand | null>> = {
   ABS: ([a]) => (typeof a === 'bigint' ? (a < 0n ? -a : a) : typeof a === 'number' ? Math.abs(a) : null),
-  SQRT: ([a]) => (a === undefined || typeof a === 'boolean' ? null : finite(Math.sqrt(Number(a)))),
+  SQRT: ([a]) => (a === undefined || typeof a === 'boolean' ? null : Math.sqrt(Number(a))),
   MIN: (values) => extreme(values, (a, b) => a < b),
   MAX: (values) => extreme(values, (a, b) => a > b),
   LIMIT: ([low, a, high]) => extreme([extreme([low!, a!], (x, y) => x > y) ?? false, high!], (x, y) => x < y),
@@ -231,7 +231,7 @@ function real(operator: string, a: number, b: number): number | null {
     case '*':
       return a * b;
     case '/':
-      return b === 0 ? null : a / b;
+      return a / b; // IEEE 754, as in the controller
     case '**':
       return finite(a ** b);
     default:
@@ -247,7 +247,8 @@ const finite = (value: number) => (Number.isFinite(value) ? value : null);
 
 function extreme(values: readonly Operand[], better: (a: Operand, b: Operand) => boolean): Operand | null {
   if (values.some((value) => typeof value === 'boolean')) return null;
-  return values.reduce((best, value) => (better(value, best) ? value : best));
+  const same = values.some((value) => typeof value === 'number') ? values.map(Number) : values;
+  return same.reduce((best, value) => (better(value, best) ? value : best));
 }
 
 /** A live value as operand: what is neither BOOL nor number (texts, structures) is none. */

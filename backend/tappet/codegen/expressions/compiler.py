@@ -8,6 +8,7 @@ locals where a program is halted, then those of the symbol map.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import reduce
 
 from tappet.codegen.expressions.operators import (
     Operand,
@@ -46,7 +47,7 @@ from tappet.lang import types as t
 from tappet.lang.parser import parse_expression
 
 MAX_TEXT = 1000
-_FUNCTIONS = {"ABS": 1, "SQRT": 1, "MIN": 2, "MAX": 2}
+_FUNCTIONS = {"ABS": 1, "SQRT": 1, "MIN": 2, "MAX": 2, "LIMIT": 3}
 
 
 def compile_expression(text: str, symbols: SymbolMap, scope: Scope | None = None) -> ExpressionProgram:
@@ -190,9 +191,16 @@ class _Compiler:
             raise ExpressionError(f"only {', '.join(_FUNCTIONS)} can be called here")
         name = tree.callee.name.upper()
         given = [argument.value for argument in tree.args if argument.value is not None]
-        if len(given) != _FUNCTIONS[name] or any(argument.output for argument in tree.args):
+        more = name in ("MIN", "MAX") and len(given) > _FUNCTIONS[name]
+        if (len(given) != _FUNCTIONS[name] and not more) or any(argument.output for argument in tree.args):
             raise ExpressionError(f"'{name}' takes {_FUNCTIONS[name]} values, not {len(tree.args)}")
-        return numeric_function(name, [self.expression(value) for value in given])
+        values = [self.expression(value) for value in given]
+        if name == "LIMIT":  # IEC 61131-3, table 36: MIN(MAX(IN, MN), MX)
+            least, value, most = values
+            return numeric_function("MIN", [numeric_function("MAX", [value, least]), most])
+        if more:
+            return reduce(lambda one, other: numeric_function(name, [one, other]), values)
+        return numeric_function(name, values)
 
     # -- variables ---------------------------------------------------------------------------------------
 
