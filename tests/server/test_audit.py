@@ -54,6 +54,8 @@ EXEMPT = {
     "log_in": READS,
     "log_out": "changes nothing: there is nothing kept of a login to a runtime",
     "open_view": READS,
+    "show_past_cycle": READS,
+    "flight_renew": "says that who has frozen the recorder is still there, which was recorded then",
     "login": LOGIN,
     "create_first_account": LOGIN,
     "write_setting": OWN,

@@ -393,7 +393,8 @@ def report(found: Outcome, size: Size) -> Report:
         f"{size.browsers} browsers in {size.processes} processes on the same machine: {each}, at least "
         f"{seen.least / found.lasted:.1f}; {seen.wire_bytes / found.lasted / 1e6:.2f} MB/s in all",
         f"{TRACED} variables traced in every cycle and recorded by the server: "
-        f"{found.traced.samples} samples, {found.traced.lost} lost, {found.traced.gaps} gaps; the flight recorder holds {found.past} cycles",
+        f"{found.traced.samples} samples, {found.traced.lost} lost, {found.traced.gaps} gaps; "
+        f"the flight recorder holds {found.past} cycles",
     )
     return Report("load", "the same task with nobody there, same run", rows, BAR, remarks)
 
