@@ -10,20 +10,21 @@ import http.client
 import json
 import os
 import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, BrowserContext, CDPSession, FloatRect, Page, Playwright, expect
+from playwright.sync_api import Browser, CDPSession, FloatRect, Page, expect
 
+from . import optimising_browser
 from .api import example
-from .conftest import CHROMIUM_FLAGS, ROOT, Server, launched, new_profile
+from .conftest import ROOT, Server
 from .frame_times import Frames, frames_of
 from .test_trace_editor import TracePage, opened, record
 
 pytestmark = [pytest.mark.e2e, pytest.mark.slow]
+browser, profile = optimising_browser.browser, optimising_browser.profile
 
 SAMPLES = int(os.environ.get("TAPPET_TRACE_SAMPLES", "10_000_000"))
 CHANNELS = ("sine", "beat", "noise", "steps")
@@ -57,20 +58,6 @@ PLAIN = """
   }, { passive: false });
 }
 """
-
-
-@pytest.fixture(scope="module")
-def browser(playwright: Playwright) -> Iterator[Browser]:
-    """Chromium with its optimising compilers, which the other tests switch off."""
-    flags = [flag for flag in CHROMIUM_FLAGS if not flag.startswith("--js-flags")]
-    with launched(playwright, flags) as chromium:
-        yield chromium
-
-
-@pytest.fixture(scope="module")
-def profile(browser: Browser) -> Iterator[BrowserContext]:
-    with new_profile(browser) as fresh:
-        yield fresh
 
 
 def _trace_file(path: Path, samples: int) -> None:

@@ -8,25 +8,24 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
 from playwright.sync_api import (
     APIRequestContext,
     Browser,
-    BrowserContext,
     Page,
-    Playwright,
     WebSocket,
     expect,
 )
 
-from .conftest import CHROMIUM_FLAGS, Server, launched, new_profile
+from . import optimising_browser
+from .conftest import Server
 from .main_thread import PAINTED, SECONDS, Load, PlainTable, compare_scrolling
 from .workbench import implementation, log_in, open_object, open_panel, open_project
 
 pytestmark = [pytest.mark.e2e, pytest.mark.slow]
+browser, profile = optimising_browser.browser, optimising_browser.profile
 
 PROJECT = "Thousand values"
 VARIABLES = 1000
@@ -77,20 +76,6 @@ BIG_LINES = 5000
 """Lines of the body of the large text."""
 ADDED = {"SmallIl": "IL", "LargeSt": "ST", "AnotherSt": "ST"}
 """Programs beside those of the example, with their languages."""
-
-
-@pytest.fixture(scope="module")
-def browser(playwright: Playwright) -> Iterator[Browser]:
-    """Chromium with its optimising compilers, which the other tests switch off."""
-    flags = [flag for flag in CHROMIUM_FLAGS if not flag.startswith("--js-flags")]
-    with launched(playwright, flags) as chromium:
-        yield chromium
-
-
-@pytest.fixture(scope="module")
-def profile(browser: Browser) -> Iterator[BrowserContext]:
-    with new_profile(browser) as fresh:
-        yield fresh
 
 
 class Subscriptions:

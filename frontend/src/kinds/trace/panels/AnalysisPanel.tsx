@@ -6,6 +6,7 @@ import type { RunData } from '../data/runData';
 import { seenTime, type OverlayRun } from '../Diagrams';
 import { PANELS, type PanelId, type TraceView } from '../traceView';
 import styles from '../Trace.module.css';
+import panel from './Panels.module.css';
 import { ComparePanel } from './ComparePanel';
 import { MeasurePanel, StatisticsPanel } from './MeasurePanel';
 import { RecordingsPanel } from './RecordingsPanel';
@@ -65,7 +66,7 @@ export function AnalysisPanel(props: AnalysisPanelProps) {
   };
   return (
     <>
-      <div className={styles.panelTabs} role="tablist" aria-label={t('trace.analysis')}>
+      <div className={panel.panelTabs} role="tablist" aria-label={t('trace.analysis')}>
         {PANELS.map((panel) => (
           <button
             key={panel}
@@ -80,8 +81,8 @@ export function AnalysisPanel(props: AnalysisPanelProps) {
         {view.panel !== null && <IconButton icon={X} small label={t('action.close')} onClick={() => open(null)} />}
       </div>
       {view.panel !== null && (
-        <div className={styles.panel} role="tabpanel" aria-label={t(`trace.panel.${view.panel}`)}>
-          <div className={styles.panelBody}>{content()}</div>
+        <div className={panel.panel} role="tabpanel" aria-label={t(`trace.panel.${view.panel}`)}>
+          <div className={panel.panelBody}>{content()}</div>
         </div>
       )}
     </>

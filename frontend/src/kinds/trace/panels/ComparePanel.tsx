@@ -17,6 +17,7 @@ import { momentText, timeGrain } from '../diagram/timeAxis';
 import { formatNumber } from '../numbers';
 import type { TraceView } from '../traceView';
 import styles from '../Trace.module.css';
+import panel from './Panels.module.css';
 import { channelsOf, samplesOf } from './channels';
 import { LineChart } from './LineChart';
 
@@ -84,8 +85,8 @@ export function ComparePanel({ data, run, range, overlays, view, onView }: Compa
   const fault = typed !== null && signedDuration(typed) === null;
   const grain = timeGrain(range.max - range.min);
   return (
-    <div className={styles.chartBody}>
-      <div className={styles.choices}>
+    <div className={panel.chartBody}>
+      <div className={panel.choices}>
         <label>
           {t('trace.variable')}
           <Select
@@ -130,7 +131,7 @@ export function ComparePanel({ data, run, range, overlays, view, onView }: Compa
         )}
       </div>
       {runs && apart && (
-        <div className={styles.chartPlace} style={{ display: 'flex' }}>
+        <div className={panel.chartPlace} style={{ display: 'flex' }}>
           <LineChart
             label={t('trace.difference')}
             xs={Float64Array.from(runs.one.time)}

@@ -9,6 +9,7 @@ import { automaticColor } from '../diagram/ink';
 import { durationText } from '@/iec/duration';
 import { formatNumber } from '../numbers';
 import styles from '../Trace.module.css';
+import panel from './Panels.module.css';
 import { channelsOf, placeIn, samplesOf, type ChannelRef } from './channels';
 
 const LIVE_MS = 1000;
@@ -89,7 +90,7 @@ const text = (value: number | null | undefined) => (value == null ? '–' : form
 function NameCell({ of }: { of: ChannelRef }) {
   return (
     <th scope="row">
-      <i className={styles.swatch} style={{ background: of.channel.color || automaticColor(of.number) }} />
+      <i className={panel.swatch} style={{ background: of.channel.color || automaticColor(of.number) }} />
       {of.name}
     </th>
   );

@@ -17,6 +17,7 @@ import { traceKeys, useRecordings } from '../data/useRuns';
 import { FIRST_VIEW, type TraceView } from '../traceView';
 import { formatBytes } from '../numbers';
 import styles from '../Trace.module.css';
+import panel from './Panels.module.css';
 
 interface RecordingsPanelProps {
   projectId: string;
@@ -94,7 +95,7 @@ export function RecordingsPanel({ projectId, trace, view, onView, onConfiguratio
               {one.state !== 'complete' && (
                 <span className={styles.muted}>{` ${t(`trace.recordingState.${one.state}`)}`}</span>
               )}
-              <span className={styles.limits} title={limitsOf(one, t)}>
+              <span className={panel.limits} title={limitsOf(one, t)}>
                 {limitsOf(one, t)}
               </span>
             </th>

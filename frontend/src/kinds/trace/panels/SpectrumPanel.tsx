@@ -12,6 +12,7 @@ import { automaticColor } from '../diagram/ink';
 import { frequencyText } from '../diagram/timeAxis';
 import { formatNumber } from '../numbers';
 import styles from '../Trace.module.css';
+import panel from './Panels.module.css';
 import { channelsOf, placeIn, samplesOf, type ChannelRef } from './channels';
 import { LineChart } from './LineChart';
 
@@ -73,8 +74,8 @@ export function SpectrumPanel({ data, run, range }: SpectrumPanelProps) {
   });
   const peak = found ? greatest(found) : null;
   return (
-    <div className={styles.chartBody}>
-      <div className={styles.choices}>
+    <div className={panel.chartBody}>
+      <div className={panel.choices}>
         <label>
           {t('trace.variable')}
           <Select
@@ -108,7 +109,7 @@ export function SpectrumPanel({ data, run, range }: SpectrumPanelProps) {
       {error ? (
         <p className={styles.note}>{explain(error).text ?? explain(error).title}</p>
       ) : found ? (
-        <div className={styles.chartPlace} style={{ display: 'flex' }}>
+        <div className={panel.chartPlace} style={{ display: 'flex' }}>
           <LineChart
             label={t('trace.panel.spectrum')}
             xs={found.frequency}

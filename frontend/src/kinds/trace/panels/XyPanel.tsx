@@ -9,6 +9,7 @@ import type { RunData } from '../data/runData';
 import { sourcePath } from '../data/source';
 import { automaticColor } from '../diagram/ink';
 import styles from '../Trace.module.css';
+import panel from './Panels.module.css';
 import { channelsOf, samplesOf } from './channels';
 import { LineChart } from './LineChart';
 
@@ -51,8 +52,8 @@ export function XyPanel({ data, run, live, range }: XyPanelProps) {
   });
   const choices = channels.map(({ key, name }) => ({ value: key, text: name }));
   return (
-    <div className={styles.chartBody}>
-      <div className={styles.choices}>
+    <div className={panel.chartBody}>
+      <div className={panel.choices}>
         {(['x', 'y'] as const).map((of) => (
           <label key={of}>
             {of.toUpperCase()}
@@ -67,7 +68,7 @@ export function XyPanel({ data, run, live, range }: XyPanelProps) {
         {found?.thinned && <span className={styles.muted}>{t('trace.thinned')}</span>}
       </div>
       {found && (
-        <div className={styles.chartPlace} style={{ display: 'flex' }}>
+        <div className={panel.chartPlace} style={{ display: 'flex' }}>
           <LineChart
             label={t('trace.panel.xy')}
             xs={found.xs}
