@@ -236,14 +236,16 @@ def test_exported_files_hold_the_samples(runs: TracePage, tmp_path: Path) -> Non
 
     with exported("CSV").open(newline="") as text:
         rows = list(csv.reader(text))
-    assert rows[0][:5] == ["time_ns", "cycle", "PLC_PRG.a", "PLC_PRG.b", "PLC_PRG.pulse"]
+    assert rows[0] == ["time_ns", "cycle", "PLC_PRG.a", "PLC_PRG.b", "PLC_PRG.pulse", "f"]
     assert [int(row[0]) for row in rows[1:]] == [BEGUN + n * 1_000_000 for n in range(COUNT)]
-    for number, values in enumerate(expected):
+    computed = expected[0] + 2 * expected[2]
+    for number, values in enumerate([*expected, computed]):
         assert [float(row[2 + number]) for row in rows[1:]] == values.tolist()
     table = pq.read_table(exported("Parquet"))
     assert table["time"].cast("int64").to_pylist() == [BEGUN + n * 1_000_000 for n in range(COUNT)]
     for name, values in zip(("a", "b", "pulse"), expected, strict=True):
         assert table[f"PLC_PRG.{name}"].to_pylist() == values.tolist()
+    assert table["f"].to_pylist() == computed.tolist()
 
 
 def test_a_long_term_recording_is_begun_with_its_limits_and_ended(page: Page, server: Server) -> None:

@@ -36,7 +36,7 @@ DATA = {
         {
             "buffer": 100,
             "channels": [
-                {"variable": "PLC_PRG.s"},
+                {"variable": "PLC_PRG.s", "name": "s"},
                 {"formula": "s * 2", "name": "f"},
                 {"variable": "PLC_PRG.twice"},
                 {"variable": "PLC_PRG.odd"},
@@ -315,7 +315,9 @@ def test_files_and_stored_recordings(client: TestClient, tmp_path: Path, project
             "PLC_PRG.twice",
             "PLC_PRG.odd",
             "PLC_PRG.p^ / 2.0",
+            "f",
         ]
+        assert [float(row[6]) for row in rows[1:]] == [2 * int(row[2]) for row in rows[1:]]
         assert [int(row[2]) for row in rows[1:]] == shown["values"][0].tolist()
         (tmp_path / "a.parquet").write_bytes(
             client.get(f"{place}/export", params={"format": "parquet"}).content

@@ -225,15 +225,17 @@ def _write(
     chosen: int,
 ) -> None:
     from tappet.traces.formats import csv_lines, write_parquet, write_trace
+    from tappet.traces.formula import with_formulas
     from tappet.whole_file import write_output
 
+    computed = with_formulas(records[chosen][1], data, chosen)
     if form == "csv":
-        write_output(path, b"".join(csv_lines(records[chosen][1])))
+        write_output(path, b"".join(csv_lines(computed)))
         return
     unfinished = path.with_name(path.name + ".new")
     try:
         if form == "parquet":
-            write_parquet(records[chosen][1], unfinished)
+            write_parquet(computed, unfinished)
         else:
             write_trace(unfinished, status.name, status.application, data.model_dump(mode="json"), records)
         unfinished.replace(path)

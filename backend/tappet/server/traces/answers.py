@@ -13,12 +13,14 @@ from msgspec import structs
 from starlette.background import BackgroundTask
 from starlette.concurrency import run_in_threadpool
 
+from tappet.project.trace import TraceData
 from tappet.server.problems import Problem
 from tappet.server.traces.shapes import ChannelSpectrum, ChannelStatistics, ExportFormat
 from tappet.server.traces.shown import BINARY, Shown, Span
 from tappet.traces import analysis, formats, windows
+from tappet.traces.formula import with_formulas
 from tappet.traces.questions import MOST_SAMPLES, Operation, WindowFunction
-from tappet.traces.samples import BatchSamples
+from tappet.traces.samples import BatchSamples, Samples
 
 T = TypeVar("T")
 
@@ -119,19 +121,21 @@ async def export(
     record: int,
     form: ExportFormat,
 ) -> Response:
-    """A file: CSV and Parquet of one record, a trace file of all."""
+    """A file: CSV and Parquet of one record with its formulas, a trace file of all."""
     plain = name.encode("ascii", "replace").decode()
     file_name = "".join(c if c.isalnum() or c in "-_ " else "_" for c in plain)[:100] or "trace"
     headers = {"Content-Disposition": f'attachment; filename="{file_name}.{form}"'}
+    if form != "trace":
+        computed = with_formulas(records[record].samples, TraceData.model_validate(settings), record)
     if form == "csv":
-        lines = _locked_lines(records[record])
+        lines = _locked_lines(records[record], computed)
         return StreamingResponse(lines, media_type="text/csv; charset=utf-8", headers=headers)
     path = Path(tempfile.mkdtemp(prefix="tappet-export-")) / f"export.{form}"
 
     def write() -> None:
         if form == "parquet":
             with records[record].lock:
-                formats.write_parquet(records[record].samples, path)
+                formats.write_parquet(computed, path)
         else:
             with records[0].lock if records else nullcontext():
                 formats.write_trace(path, name, application, settings, [(r.info, r.samples) for r in records])
@@ -149,9 +153,9 @@ async def export(
     return FileResponse(path, media_type=media, headers=headers, background=BackgroundTask(remove))
 
 
-def _locked_lines(shown: Shown) -> Iterator[bytes]:
+def _locked_lines(shown: Shown, samples: Samples) -> Iterator[bytes]:
     """Lines of a recording that may grow meanwhile."""
-    lines = formats.csv_lines(shown.samples)
+    lines = formats.csv_lines(samples)
     while True:
         with shown.lock:
             line = next(lines, None)
