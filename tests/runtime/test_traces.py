@@ -255,6 +255,18 @@ def test_several_traces_and_records_at_once() -> None:
         assert [t.name for t in runtime.plc.traces()] == ["Trace"]
 
 
+def test_more_than_twenty_variables_lose_no_sample() -> None:
+    """ONL-01: 21 variables with 500 samples each, at the edge of a BOOL."""
+    names = [f"PLC_PRG.s + {number}" for number in range(21)]
+    with _running() as runtime:
+        trigger = {"variable": "PLC_PRG.xRec", "edge": "positive", "position": 100}
+        traced(runtime, *names, buffer=500, trigger=trigger)
+        runtime.run(cycles=600)
+        assert status(runtime).state == "done"
+        for number in range(21):
+            assert column(runtime, number) == [cycle + number for cycle in range(11, 511)]
+
+
 def test_a_changed_application_ends_the_trace() -> None:
     """TRC-70, trace EX-07: online change and download; a reset does not."""
     first = build(TEXT)
