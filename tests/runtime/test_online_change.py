@@ -1,11 +1,12 @@
 """Online change: values stay, code changes, forces and recorders find their variables again."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pytest
 from plc_programs import MS, build
 
+from tappet.codegen.change_report import change_report
 from tappet.iec.task import Task
 from tappet.runtime.errors import OtherApplicationError, PlcError
 from tappet.runtime.forces import PlacedValue
@@ -76,6 +77,47 @@ VAR fb : FB; END_VAR
 fb();
 END_PROGRAM
 """
+
+
+TARGETS = ("INT", "LREAL", "S", "Block")
+
+
+@pytest.mark.parametrize("order", [TARGETS[n:] + TARGETS[:n] for n in range(4)])
+@pytest.mark.parametrize("gone", ["INT", "LREAL", "S", "Block", None])
+def test_pointers_become_what_the_report_says(order: tuple[str, ...], gone: str | None) -> None:
+    """Whichever of its variables goes, wherever it lies: a pointer that is 0 afterwards was told before, and
+    one that was told of nothing is as it was."""
+
+    def text(types: Sequence[str], more: str = "") -> str:
+        variables = "".join(f"v{type_} : {type_}; " for type_ in types)
+        pointers = "".join(f"p{type_} : POINTER TO {type_}; " for type_ in order)
+        takes = "".join(f"Pointers.p{type_} := ADR(v{type_}); " for type_ in types)
+        takes = takes if len(types) == len(TARGETS) and not more else ""
+        return f"""
+TYPE S : STRUCT a : WORD; END_STRUCT END_TYPE
+FUNCTION_BLOCK Block VAR n : DWORD; END_VAR END_FUNCTION_BLOCK
+PROGRAM Pointers VAR_INPUT {pointers} END_VAR END_PROGRAM
+PROGRAM PLC_PRG VAR {more} {variables} END_VAR {takes} END_PROGRAM
+"""
+
+    kept = [type_ for type_ in order if type_ != gone]
+    with LocalRuntime(build(text(order))) as runtime:
+        runtime.run(cycles=1)
+        before = {type_: runtime.read(f"Pointers.p{type_}") for type_ in order}
+        assert all(before.values())
+        package = build(text(kept, "" if gone else "wide : LREAL;"), previous=runtime.package)
+        told = {row.path: row.effect for row in change_report(runtime.package, package).rows}
+        runtime.plc.download(package.to_bytes(), "online_change")
+        runtime.run(cycles=1)
+        for type_ in order:
+            name = f"Pointers.p{type_}"
+            pointer, effect = runtime.read(name), told.get(name)
+            if pointer == 0:
+                assert effect == "cleared", (type_, told)
+            elif pointer != before[type_]:
+                assert effect in ("follows", "cleared"), (type_, told)
+            if type_ == gone:
+                assert pointer == 0
 
 
 def test_blocks_are_left_and_entered() -> None:
