@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
+import msgspec
 import pytest
 from failing_press import BUG, MENDED, recording_of, with_text
 from tests.cli.invoke import invoke
@@ -12,6 +15,9 @@ from tests.cli.invoke import invoke
 from tappet.project import edit, folder
 from tappet.project.model import Project
 from tappet.project.new_project import new_project
+from tappet.runtime.flight_recording import read_recording
+from tappet.runtime.replay_process import ReplayResult
+from tappet.runtime.unit_tests.recordings import RecordedTest, outcome_of
 
 
 @pytest.fixture(scope="module")
@@ -100,6 +106,33 @@ def test_a_recording_can_ask_for_its_fault(failing: Project, tmp_path: Path) -> 
     assert other.code == 1
     said = "another fault than the recorded one of cycle 21 came: cycle 17: division by zero"
     assert said in other.output, other.output
+
+
+@pytest.mark.parametrize(
+    ("changed", "virtual", "tasks", "good"),
+    [
+        ({}, True, 1, True),
+        ({"line": 9}, True, 1, True),
+        ({"cycle": 22}, True, 2, False),
+        ({"cycle": 22}, False, 1, False),
+        ({"cycle": 22}, False, 2, True),
+        ({"cycle": 23}, False, 2, False),
+        ({"pou": "Other"}, True, 1, False),
+        ({"task": "Other"}, False, 2, False),
+        ({"name": "ARRAY_BOUNDS"}, True, 1, False),
+    ],
+)
+def test_which_fault_is_the_same_one(
+    failing: Project, changed: dict[str, Any], virtual: bool, tasks: int, good: bool
+) -> None:
+    item = next(item for item in failing.walk() if item.kind == "flight_recording")
+    recording = read_recording(item.data.model_dump()["recording"])
+    recorded = recording.exception
+    assert recorded is not None
+    recording = msgspec.structs.replace(recording, virtual=virtual, tasks=recording.tasks[:1] * tasks)
+    result = ReplayResult(recorded=recorded, fault=replace(recorded, **changed))
+    outcome = outcome_of(RecordedTest("Monday", "", same_fault=True), recording, result)
+    assert outcome.outcome == ("passed" if good else "failed")
 
 
 def test_one_that_is_no_test_is_left_out(failing: Project, tmp_path: Path) -> None:

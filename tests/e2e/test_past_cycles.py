@@ -16,6 +16,7 @@ from .workbench import (
     answer_to,
     choose_menu,
     log_in,
+    objects_stored,
     open_object,
     open_project,
     plc_prg,
@@ -136,7 +137,7 @@ def test_an_exception_opens_the_bar_and_the_cycle_before_is_a_step_away(page: Pa
     expect(bar).to_have_count(0)
 
 
-def test_a_recording_is_kept_looked_into_and_replayed(page: Page) -> None:
+def test_a_recording_is_kept_looked_into_and_replayed(page: Page, server: Server) -> None:
     _to_the_fault(page)
     with answer_to(page, "/recordings") as answer:
         choose_menu(page, "Debug", "Save Past Cycles")
@@ -166,6 +167,24 @@ def test_a_recording_is_kept_looked_into_and_replayed(page: Page) -> None:
 
     held.get_by_role("button", name="On the Present Program").click()
     expect(held.get_by_role("status")).to_contain_text("Division by zero", timeout=120_000)
+
+    choose_menu(page, "Build", "Run Tests")
+    results = page.get_by_role("tree", name="Unit Tests")
+    failed = results.get_by_role("treeitem").filter(has_text="division by zero")
+    expect(failed).to_contain_text("cycle", timeout=120_000)
+    expect(results.get_by_role("treeitem").first).to_contain_text("Flight recordings")
+    page.screenshot(path=Path(os.environ.get("TAPPET_PICTURES", server.data)) / "past-tests.png")
+    failed.dblclick()
+    expect(page.get_by_text("Ln 2, Col")).to_be_visible()
+    held = page.get_by_role("tabpanel").filter(has_text="Look into It")
+    page.locator(".dv-tab").filter(has_text="Recording 20").click()
+    held.get_by_role("combobox", name="Passes when").click()
+    page.get_by_role("option", name="the recorded fault comes again").click()
+    with objects_stored(page):
+        page.keyboard.press("Control+S")
+    choose_menu(page, "Build", "Run Tests")
+    expect(results.get_by_role("treeitem")).to_have_count(2, timeout=120_000)
+    expect(page.get_by_role("tabpanel", name="Unit Tests")).to_contain_text("1 passed")
 
 
 BOTTLE = "GVL_Plant.aBottles[1].lrPosition"
