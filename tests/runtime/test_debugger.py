@@ -58,6 +58,7 @@ def test_a_breakpoint_halts_before_its_statement(plc: SoftPlc) -> None:
     assert state.active
     (halt,) = state.halted
     assert (halt.task, halt.reason, halt.place.pou, halt.place.line) == ("Main", "breakpoint", "PLC_PRG", 31)
+    assert [task.status for task in plc.tasks()] == ["halted"]
     first = value(plc, "PLC_PRG.i")
     assert value(plc, "PLC_PRG.first.x") == first - 1
     plc.debugger.control("continue")

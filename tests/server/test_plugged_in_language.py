@@ -7,6 +7,7 @@ import io
 import json
 import os
 import re
+import time
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,7 +18,8 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 from tests.plugins.installing import installed
 
-from tappet.codegen.build import build_application
+from tappet.codegen.build import BuildSession, build_application
+from tappet.codegen.debug_build import instrument
 from tappet.codegen.package import CodePackage
 from tappet.iec.languages import file_ending, languages
 from tappet.lang.services import cross_references, rename
@@ -28,7 +30,9 @@ from tappet.project.folder import decode, encode
 from tappet.project.model import Project
 from tappet.project.new_project import new_project
 from tappet.project.sources import application_sources
+from tappet.runtime.debugger.shapes import BreakpointOrder, Spot
 from tappet.runtime.local import ApplicationException, LocalRuntime
+from tappet.runtime.plc import SoftPlc
 from tappet.server.lsp.project_programs import ProjectPrograms, part_uri
 
 API = "/api/v1"
@@ -234,3 +238,41 @@ def test_an_edit_of_an_element_is_checked_like_an_edit_of_a_body(chain: list[str
     (snapshot,) = space.snapshots()
     assert [d.code for d in snapshot.diagnostics] == ["E0201"]
     assert space.whole_analyses == analysed
+
+
+def test_a_breakpoint_halts_before_each_element(chain: list[str]) -> None:
+    """Each is named by its id, and what the ones before it compute is there."""
+    project = drawn()
+    (application,), (program,) = project.applications(), project.find_kind("pou")
+    session = BuildSession()
+    result = build_application(application_sources(project, application.id), session=session)
+    assert result.package is not None
+    assert session.generated is not None
+    plc = SoftPlc(None)
+    try:
+        plc.load(CodePackage.from_bytes(result.package.to_bytes()))
+        plc.debugger.load(instrument(session.generated).to_bytes())
+        for element in ("n1", "n2", "n3", "n4"):
+            place = Spot(program.id, element=element)
+            assert plc.debugger.add(BreakpointOrder(place=place)).verified
+        assert not plc.debugger.add(BreakpointOrder(place=Spot(program.id, element="n9"))).verified
+        plc.start()
+        seen = []
+        for command in ("continue", "step_over", "step_over", "continue"):
+            end = time.monotonic() + 20
+            while not plc.debugger.halted_tasks():
+                assert time.monotonic() < end, "it does not halt"
+                time.sleep(0.001)
+            (halt,) = plc.debugger.state().halted
+            values = {v.name: v.literal for v in plc.debugger.variables(halt.task, 0).variables}
+            seen.append((halt.place.element, values["sum"], values["quotient"], values["isMore"]))
+            assert halt.place.object_id == program.id
+            plc.debugger.control(command)
+        assert seen == [
+            ("n1", "0", "0", "FALSE"),
+            ("n2", "5", "0", "FALSE"),
+            ("n3", "5", "10", "FALSE"),
+            ("n4", "5", "10", "TRUE"),
+        ]
+    finally:
+        plc.close()

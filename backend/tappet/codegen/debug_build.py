@@ -17,7 +17,7 @@ from tappet.codegen.symbols_build import TypeTable
 from tappet.core import ir
 from tappet.core.program import Program, path_of
 from tappet.lang import ast
-from tappet.lang.source import Scope
+from tappet.lang.source import NOWHERE, Scope
 from tappet.lang.symbols import PouSymbol, VarSymbol
 from tappet.lang.walk import bodies, own_expressions, statements
 
@@ -149,7 +149,8 @@ def _heads(pou: PouSymbol) -> dict[tuple[int, int], StatementHead]:
         parts: set[int] = set()
         first = statement.span.line
         for e in own_expressions(statement):
-            first = min(first, e.span.line)
+            if e.span != NOWHERE:
+                first = min(first, e.span.line)
             if isinstance(e, ast.Index | ast.Member | ast.Deref):
                 parts.add(id(e.base))
             if id(e) in parts or e.is_constant or not isinstance(e, _NAMED):

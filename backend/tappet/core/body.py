@@ -69,6 +69,8 @@ class Body:
         """How many of them were open where each open loop began."""
         self.writing = False
         """Whether the place that is being worked out is written to; an argument of CheckPointer."""
+        self.halt_points = False
+        """Whether only `HaltPoint` is where a debugger may halt."""
         self.temporaries = 0
         self.held: dict[int, ir.Place] = {}
         """Where the accumulator of IL is kept, by the number of its `Hold`."""

@@ -39,6 +39,7 @@ from tappet.lang import types as t
 from tappet.lang.analysis.result import Analysis
 from tappet.lang.source import Scope
 from tappet.lang.symbols import GvlSymbol, PouSymbol, Storage, VarSymbol
+from tappet.lang.walk import statements as every_statement
 
 INIT = "tappet.init"
 EXIT = "tappet.exit"
@@ -337,6 +338,9 @@ def lower_pou(program: Program, pou: PouSymbol) -> None:
         _locals(b, pou)
         assert pou.pou is not None
         b.leave = monitored.keeper(b, pou)
+        b.halt_points = pou.pou.language != "ST" and any(
+            isinstance(s, ast.HaltPoint) for s in every_statement(pou.pou.body)
+        )
         lower_statements(b, pou.pou.body)
         if b.leave is not None:
             b.leave()

@@ -22,7 +22,10 @@ def lower_statements(b: Body, statements: Sequence[ast.Stmt]) -> None:
             b.function.labels += 1
         handler = _STATEMENTS.get(statement.__class__)
         if handler is not None:
-            b.statement(statement)
+            if b.halt_points and not isinstance(statement, ast.HaltPoint):
+                b.line(statement)
+            else:
+                b.statement(statement)
             handler(b, statement)
 
 
@@ -197,6 +200,10 @@ def _when_declared(b: Body, s: ast.WhenDeclared) -> None:
     lower_statements(b, s.chosen)
 
 
+def _halt_point(b: Body, s: ast.HaltPoint) -> None:
+    """Its place is all there is of it."""
+
+
 def _held_value(b: Body, e: ast.Held) -> ir.Expr:
     return ir.Load(require_scalar(carried_type(e)), b.held[e.slot])
 
@@ -253,6 +260,7 @@ _STATEMENTS: dict[type, Callable[..., None]] = {
     ast.Return: _return,
     ast.Jump: _jump,
     ast.Hold: _hold,
+    ast.HaltPoint: _halt_point,
     ast.WhenDeclared: _when_declared,
     ast.Try: _try,
 }

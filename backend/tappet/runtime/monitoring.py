@@ -26,11 +26,14 @@ def statistics(application: LoadedApplication) -> list[TaskStatistics]:
     """Task monitoring (TASK-50 .. TASK-59)."""
     contexts = application.contexts
     faulted = contexts.faulted_task()
+    halted = application.variant.halted() if application.variant is not None else []
     rows = []
     for i, (spec, task) in enumerate(zip(application.package.tasks, contexts.tasks, strict=True)):
         status = "valid" if task["started"] else "created"
         if spec.kind in EVENT_DRIVEN and not task["started"]:
             status = "not created"
+        if i in halted:
+            status = "halted"
         if faulted == i:
             status = "exception"
         rows.append(read_statistics(spec, contexts.statistics(task), status))

@@ -96,7 +96,7 @@ class TaskStatistics:
     priority: int
     interval_ns: int
     status: str
-    """not created, created, valid or exception (TASK-51)."""
+    """not created, created, valid or exception (TASK-51); halted while it stands at a statement."""
     iec_cycles: int
     cycles: int
     last_ns: int

@@ -136,6 +136,12 @@ class Hold(Stmt):
 
 
 @dataclass(slots=True, kw_only=True)
+class HaltPoint(Stmt):
+    """Computes nothing: where a debugger may halt in a body that was made from a graph, as at the steps of a
+    chart. The other statements of such a body are no places to halt."""
+
+
+@dataclass(slots=True, kw_only=True)
 class Empty(Stmt):
     """A lone semicolon, or a label with nothing after it."""
 

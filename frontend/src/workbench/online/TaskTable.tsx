@@ -17,7 +17,7 @@ import { useTasks } from './poll';
 import styles from './TaskTable.module.css';
 import { countText, microsNumber } from './times';
 
-const STATUS_COLORS: Record<string, string> = { exception: 'var(--error)', valid: 'var(--ok)' };
+const STATUS_COLORS: Record<string, string> = { exception: 'var(--error)', halted: 'var(--warn)', valid: 'var(--ok)' };
 
 interface TaskTableProps {
   runtimeId: string;
@@ -174,7 +174,7 @@ export function TaskTable({ runtimeId, selected, onSelected }: TaskTableProps) {
   );
 }
 
-const STATUSES = ['not_created', 'created', 'valid', 'exception'] as const;
+const STATUSES = ['not_created', 'created', 'valid', 'halted', 'exception'] as const;
 
 /** TASK-51 in the user's language; a word of a newer runtime stays as it is. */
 function statusText(status: string, t: ReturnType<typeof useText>): string {

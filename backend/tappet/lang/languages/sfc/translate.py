@@ -48,6 +48,7 @@ def translate(pou: ast.Pou, chart: Chart, lowering: Lowering) -> tuple[list[ast.
         *_flags(c, initial),
         *_update_steps(c),
         *_own_actions(c, "EXIT", "Left"),
+        *_halt_points(c),
         *_own_actions(c, "ENTRY", "Entered"),
         *timeouts.checks(c),
         *_own_actions(c, "STEP", "x"),
@@ -237,6 +238,13 @@ def _current_step(c: Context) -> list[ast.Stmt]:
         for step in c.chart.steps
     ]
     return [declared(["SFCCurrentStep"], body, c.head)]
+
+
+def _halt_points(c: Context) -> list[ast.Stmt]:
+    """LSFC-25: a breakpoint on a step halts where the step is active, before what it does in this call."""
+    return [
+        when(f"{step.name}.x", [ast.HaltPoint(span=step.name_span)], step.name_span) for step in c.chart.steps
+    ]
 
 
 def _own_actions(c: Context, role: str, member: str) -> list[ast.Stmt]:
