@@ -4355,6 +4355,11 @@ export interface components {
              */
             instance?: string | null;
             /**
+             * @description Outlives the runtime's process; false where a client sets it again.
+             * @default true
+             */
+            kept?: boolean;
+            /**
              * @default line
              * @enum {unknown}
              */

@@ -14,7 +14,7 @@ from tappet.codegen.debug_code import DebugCode
 from tappet.codegen.package import PackageError
 from tappet.codegen.values import Value
 from tappet.runtime.contexts import RUNNING, STOPPED
-from tappet.runtime.debugger import frames, log_points
+from tappet.runtime.debugger import frames, kept, log_points
 from tappet.runtime.debugger.breakpoints import MOST, BreakpointTable, Wanted
 from tappet.runtime.debugger.flow_control import FlowControl
 from tappet.runtime.debugger.places import code_spot, line_of
@@ -58,8 +58,21 @@ class Debugger:
         self._last_step = 0
         self._sequence = 0
         self._halts = 0
-        self._kept = False
+        self._kept_active = False
         self._flow = FlowControl()
+        self._restore()
+
+    def _restore(self) -> None:
+        """What an earlier process has kept; the PLC has no application yet."""
+        found = kept.load(self._plc.folder, self._plc.log)
+        self._settings = found.settings
+        for order in found.breakpoints:
+            self._last_id += 1
+            self._wanted[self._last_id] = Wanted(self._last_id, order)
+
+    def _keep(self) -> None:
+        orders = [wanted.order for wanted in self._shown()]
+        kept.save(self._plc.folder, self._settings, orders, self._plc.log)
 
     # -- state ---------------------------------------------------------------------------------------
 
@@ -184,13 +197,13 @@ class Debugger:
 
     def _needs(self, variant: Variant) -> bool:
         """Whether tasks have to run the variant."""
-        asked = self._kept or bool(self._flow.objects) or variant.any_halted or variant.any_wanted
+        asked = self._kept_active or bool(self._flow.objects) or variant.any_halted or variant.any_wanted
         return asked or any(w.active for w in self._wanted.values())
 
     def keep_active(self, wanted: bool) -> None:
         """Whether tasks run the variant although nothing is to halt."""
         with self._lock:
-            self._kept = wanted
+            self._kept_active = wanted
             self._changed()
 
     def _direct(self) -> None:
@@ -216,6 +229,7 @@ class Debugger:
         """What happens around halted tasks from their next halt on."""
         with self._lock:
             self._settings = settings
+            self._keep()
             self._changed()
             return self.state()
 
@@ -225,6 +239,7 @@ class Debugger:
             if len(self._wanted) >= MOST:
                 raise DebugError(f"there are {MOST} breakpoints already; remove some")
             wanted = self._place(order, "halt")
+            self._keep()
             self._changed()
             return wanted.shown(self.variant)
 
@@ -248,6 +263,7 @@ class Debugger:
             variant = self.variant
             if variant is not None:
                 wanted.place(variant)
+            self._keep()
             self._changed()
             return wanted.shown(variant)
 
@@ -259,6 +275,7 @@ class Debugger:
             else:
                 self._find(number)
                 del self._wanted[number]
+            self._keep()
             self._changed()
 
     def _find(self, number: int) -> Wanted:

@@ -64,6 +64,10 @@ class BreakpointOrder(Struct, frozen=True):
         Meta(description="Text for the log instead of a halt, with {expressions}; {{ and }} are braces."),
     ] = None
     enabled: bool = True
+    kept: Annotated[
+        bool,
+        Meta(description="Outlives the runtime's process; false where a client sets it again."),
+    ] = True
 
 
 class Breakpoint(Struct, frozen=True):

@@ -294,7 +294,8 @@ def _id(number: int | None) -> str | None:
 
 def _conditions(wanted: Wanted) -> dict[str, Any]:
     given = {"condition": wanted.condition, "log": wanted.log}
-    return {"hits": wanted.hits} | {name: text for name, text in given.items() if text is not None}
+    always: dict[str, Any] = {"hits": wanted.hits, "kept": False}  # the client sets them again
+    return always | {name: text for name, text in given.items() if text is not None}
 
 
 def _text(value: object) -> str:
