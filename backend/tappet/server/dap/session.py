@@ -41,7 +41,8 @@ CAPABILITIES = {
     "supportsDelayedStackTraceLoading": True,
     "supportsVariablePaging": True,
 }
-_POLL_S = 0.5
+_LOG_POLL_S = 0.5
+"""The log of a runtime has no events; all else has."""
 _REASONS = {"breakpoint": "breakpoint", "step": "step", "pause": "pause", "data": "data breakpoint",
             "run_to": "step", "exception": "exception"}  # fmt: skip
 
@@ -164,21 +165,24 @@ class DebugSession:
 
     async def _follow(self) -> None:
         """Tell the client of every halt, exception and line of the log, until the session is closed."""
+        changed = True
         while self._view.debuggee is not None:
             self._changed.clear()
             try:
                 for severity, line in await self._view.debuggee.log_lines():
                     category = "stderr" if severity in ("error", "exception") else "console"
                     await self._connection.output(line, category)
-                await self._tell(await self._view.debuggee.state())
+                if changed:
+                    await self._tell(await self._view.debuggee.state())
+                    changed = False
             except ConnectionError as error:
                 await self._gone(error)
                 return
             except Refused as error:
                 await self._connection.output(str(error), "stderr")
             with contextlib.suppress(TimeoutError):
-                async with asyncio.timeout(_POLL_S):
-                    await self._changed.wait()
+                async with asyncio.timeout(_LOG_POLL_S):
+                    changed = await self._changed.wait()
 
     async def _tell(self, state: State) -> None:
         """Events for what has changed since the last call."""
