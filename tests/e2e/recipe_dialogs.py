@@ -8,10 +8,10 @@ from .api import example, fetch
 from .conftest import Server
 from .every_dialog import tour
 from .ui import Ui
-from .workbench import open_object
+from .workbench import log_in, open_object
 
 
-@tour("recipes.addVariables", "recipes.addRecipe", "recipes.renameRecipe", "recipes.import")
+@tour("recipes.addVariables", "recipes.addRecipe", "recipes.renameRecipe", "recipes.import", "recipes.files")
 def recipes(ui: Ui, server: Server) -> Iterator[str]:
     """What is asked for variables, for names of recipes, and for a file."""
     page = ui.page
@@ -34,5 +34,11 @@ def recipes(ui: Ui, server: Server) -> Iterator[str]:
             page.get_by_role("menuitem", name=ui.name(key)).click()
             yield key
             page.keyboard.press("Escape")
+        log_in(page)
+        ui.button("recipes.menu", ui.panel()).click()
+        page.get_by_role("menuitem", name=ui.name("recipes.files")).click()
+        yield "recipes.files"
+        page.keyboard.press("Escape")
+        page.keyboard.press("Control+F8")
     finally:
         fetch(page, server, "DELETE", f"{project}/objects/{made['id']}")

@@ -182,3 +182,52 @@ def test_the_manager_shows_a_line_of_its_files(page: Page, server: Server) -> No
     expect(found.get_by_role("alert")).to_contain_text("below that of the files")
     found.get_by_role("button", name="Bread").click()
     expect(page.locator(".dv-tab").filter(has_text=re.compile("^Bread"))).to_be_visible()
+
+
+def test_files_of_the_controller_are_saved_changed_loaded_and_deleted(page: Page, server: Server) -> None:
+    """Save, load what somebody else has written there, delete."""
+    project = made(page, server, filled())
+    log_in(page)
+
+    def files() -> Locator:
+        page.get_by_role("button", name="Recipes", exact=True).click()
+        page.get_by_role("menuitem", name="Recipe Files in the Controller").click()
+        return page.get_by_role("dialog", name="Recipe Files in the Controller")
+
+    page.get_by_label("Recipe", exact=True).last.click()
+    page.get_by_role("option", name="Rye").click()
+    dialog = files()
+    expect(dialog.get_by_text("The controller has no file of this definition")).to_be_visible()
+    dialog.get_by_role("button", name="Save 'Rye' in the controller").click()
+    row = dialog.get_by_role("row").filter(has_text="Rye.Bread.txtrecipe")
+    expect(row).to_be_visible()
+    objects = fetch(page, server, "GET", f"{project}/objects")
+    definition = next(item["id"] for item in objects if item["name"] == "Bread")
+    at = f"/runtimes/local/recipes/files/Rye?project_id={project.split('/')[-1]}&definition_id={definition}"
+    stored = fetch(page, server, "GET", at).decode()
+    assert "PLC_PRG.rTemperature:=210.5" in stored
+    fetch(page, server, "PUT", at, data={"text": stored.replace("210.5", "199.5")})
+    row.click()
+    dialog.get_by_role("button", name="Load into the project").click()
+    expect(dialog).to_have_count(0)
+    expect(page.get_by_role("gridcell", name="199.5")).to_be_visible()
+    dialog = files()
+    dialog.get_by_role("row").filter(has_text="Rye.Bread.txtrecipe").click()
+    dialog.get_by_role("button", name="Delete the file in the controller").click()
+    question = page.get_by_role("dialog", name="Delete 'Rye.Bread.txtrecipe' in the controller?")
+    question.get_by_role("button", name="Delete", exact=True).click()
+    expect(dialog.get_by_text("The controller has no file of this definition")).to_be_visible()
+
+
+def test_an_array_is_added_whole(page: Page, server: Server) -> None:
+    made(page, server)
+    page.get_by_role("button", name="Add Variables").first.click()
+    dialog = page.get_by_role("dialog", name="Add Variables")
+    dialog.get_by_role("textbox").fill("plc_prg.astep")
+    whole = dialog.get_by_role("row").filter(has_text="all members")
+    expect(whole).to_contain_text("PLC_PRG.aStep")
+    whole.click()
+    dialog.get_by_role("button", name="Add", exact=True).click()
+    expect(dialog).to_have_count(0)
+    for number in (1, 2, 3):
+        expect(page.get_by_role("gridcell", name=f"PLC_PRG.aStep[{number}]").first).to_be_visible()

@@ -6,6 +6,8 @@ import asyncio
 import time
 from collections.abc import AsyncIterator, Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, NoReturn, TypeVar
 
 from tappet.codegen.package import CodePackage
@@ -94,6 +96,8 @@ class FakePlc:
     forced: dict[tuple[int, int | None], bytes] = field(default_factory=dict)
     origins: dict[tuple[int, int | None], Origin] = field(default_factory=dict)
     report: ExceptionReport | None = None
+    folder: Path | None = None
+    """Of the files of the application."""
     downloads: list[tuple[bytes, str]] = field(default_factory=list)
     clients: list[FakeClient] = field(default_factory=list)
     recorders: list[FakeRecorder] = field(default_factory=list)
@@ -154,6 +158,10 @@ class FakePlc:
             recorder.sample()
 
     # -- what operations call ----------------------------------------------------------------------------
+
+    def loaded(self) -> SimpleNamespace:
+        self._need()
+        return SimpleNamespace(files=SimpleNamespace(folder=self.folder, open=lambda: None))
 
     def _need(self) -> SymbolMap:
         if self.symbol_map is None:

@@ -182,7 +182,14 @@ VAR CONSTANT cLimit : INT := 5; END_VAR"""
     assert answer.json()["types"]["PLC_PRG.sName"] == "STRING(10)"
     some = admin.get(f"{kitchen.files}/variables", params={"query": "plc STEP"}).json()
     assert [row["path"] for row in some["found"]] == ["PLC_PRG.aStep[1]", "PLC_PRG.aStep[2]"]
+    assert [row["path"] for row in some["wholes"]] == ["PLC_PRG.aStep"]
     assert some["more"] is False
+    for whole, members in (("PLC_PRG.fbDelay", ["ET", "IN", "PT", "Q"]), ("PLC_PRG.aStep", None)):
+        below = admin.get(f"{kitchen.files}/variables", params={"below": whole}).json()["found"]
+        names = sorted(row["path"].removeprefix(f"{whole}.") for row in below)
+        expected = members or ["PLC_PRG.aStep[1]", "PLC_PRG.aStep[2]"]
+        assert [name for name in names if name in expected] == expected
+    assert admin.get(f"{kitchen.files}/variables", params={"below": "PLC_PRG.none"}).json()["found"] == []
     at = f"{API}/projects/{kitchen.project}/objects/{program['id']}"
     body = {"base_revision": saved.json()["revision"], "data": body["data"] | {"implementation": "wrong"}}
     assert admin.put(at, json=body).status_code == 200

@@ -42,6 +42,7 @@ from tappet.server.online import routes as routes_online
 from tappet.server.persistent import routes as routes_persistent
 from tappet.server.personal_settings import routes as routes_settings
 from tappet.server.projects import routes as routes_projects
+from tappet.server.recipes import controller_routes as routes_recipe_files
 from tappet.server.recipes import routes as routes_recipes
 from tappet.server.runtimes import operations
 from tappet.server.runtimes import routes as routes_runtimes
@@ -94,6 +95,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_scenes.router,
     routes_persistent.router,
     routes_recipes.router,
+    routes_recipe_files.router,
     routes_cams.router,
     routes_running_cams.router,
     routes_tuning.router,

@@ -2776,6 +2776,54 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runtimes/{runtime_id}/recipes/files": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Recipe Files
+         * @description The recipe files of a definition that the controller has.
+         */
+        get: operations["list_recipe_files"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/recipes/files/{recipe}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Recipe File
+         * @description The content of a recipe file in the controller, as it is stored there.
+         */
+        get: operations["read_recipe_file"];
+        /**
+         * Write Recipe File
+         * @description Make or replace a recipe file in the controller; programs load it with their next command.
+         */
+        put: operations["write_recipe_file"];
+        post?: never;
+        /**
+         * Delete Recipe File
+         * @description Take a recipe file of the controller away.
+         */
+        delete: operations["delete_recipe_file"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runtimes/{runtime_id}/recipes/read": {
         parameters: {
             query?: never;
@@ -5503,6 +5551,42 @@ export interface components {
             task?: string | null;
         };
         /**
+         * ControllerFile
+         * @description A recipe file in the controller.
+         */
+        ControllerFile: {
+            /**
+             * Modified
+             * Format: date-time
+             */
+            modified: string;
+            /**
+             * Name
+             * @description Of the file.
+             */
+            name: string;
+            /** Recipe */
+            recipe: string;
+            /**
+             * Size
+             * @description Bytes.
+             */
+            size: number;
+        };
+        /**
+         * ControllerFiles
+         * @description The recipe files of a definition in the controller, by name.
+         */
+        ControllerFiles: {
+            /** Files */
+            files: components["schemas"]["ControllerFile"][];
+            /**
+             * Folder
+             * @description Below the folder of files of the application.
+             */
+            folder: string;
+        };
+        /**
          * CopyTarget
          * @description Where a copy goes.
          */
@@ -6104,6 +6188,19 @@ export interface components {
              * @description Both are equal, with all that is below them.
              */
             same: boolean;
+        };
+        /**
+         * FileContent
+         * @description What a recipe file is to hold.
+         */
+        FileContent: {
+            /**
+             * Base64
+             * @description Of a binary file, instead of the text.
+             */
+            base64?: Blob | null;
+            /** Text */
+            text?: string | null;
         };
         /**
          * FirstAccount
@@ -9006,6 +9103,11 @@ export interface components {
             types: {
                 [key: string]: string;
             };
+            /**
+             * Wholes
+             * @description Structures, arrays and instances that fit: all members are added in one step (`below`).
+             */
+            wholes: components["schemas"]["RecipeVariableType"][];
         };
         /**
          * RecipeWritten
@@ -16370,6 +16472,8 @@ export interface operations {
             query?: {
                 /** @description Parts of the path, separated by blanks. */
                 query?: string;
+                /** @description Members of this structure, array or instance only, all of them. */
+                below?: string;
             };
             header?: never;
             path: {
@@ -18990,6 +19094,185 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["RecipeComparison"];
                 };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    list_recipe_files: {
+        parameters: {
+            query: {
+                project_id: string;
+                /** @description Object of the kind `recipe_definition`. */
+                definition_id: string;
+            };
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ControllerFiles"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    read_recipe_file: {
+        parameters: {
+            query: {
+                project_id: string;
+                /** @description Object of the kind `recipe_definition`. */
+                definition_id: string;
+            };
+            header?: never;
+            path: {
+                recipe: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/octet-stream": Blob;
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    write_recipe_file: {
+        parameters: {
+            query: {
+                project_id: string;
+                /** @description Object of the kind `recipe_definition`. */
+                definition_id: string;
+            };
+            header?: never;
+            path: {
+                recipe: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FileContent"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    delete_recipe_file: {
+        parameters: {
+            query: {
+                project_id: string;
+                /** @description Object of the kind `recipe_definition`. */
+                definition_id: string;
+            };
+            header?: never;
+            path: {
+                recipe: string;
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description The request was refused */
             422: {

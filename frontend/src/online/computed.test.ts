@@ -64,15 +64,12 @@ describe('watch expressions', () => {
   ])('%s', (text, expected) => {
     expect(value(text)).toBe(expected);
   });
-  it.each([
-    'PLC_PRG.a / 0',
-    'PLC_PRG.a MOD 0',
-    'GVL.on + 1',
-    'GVL.nowhere + 1',
-    '-GVL.on',
-  ])('%s has no value', (text) => {
-    expect(value(text)).toBeNull();
-  });
+  it.each(['PLC_PRG.a / 0', 'PLC_PRG.a MOD 0', 'GVL.on + 1', 'GVL.nowhere + 1', '-GVL.on'])(
+    '%s has no value',
+    (text) => {
+      expect(value(text)).toBeNull();
+    },
+  );
   it.each([
     'PLC_PRG.a',
     ' GVL.arr[3] ',

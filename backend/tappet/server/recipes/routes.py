@@ -125,6 +125,10 @@ async def list_recipe_variables(
     store: StoreDep,
     commissioning: CommissioningDep,
     query: Annotated[str, Query(max_length=200, description="Parts of the path, separated by blanks.")] = "",
+    below: Annotated[
+        str,
+        Query(max_length=400, description="Members of this structure, array or instance only, all of them."),
+    ] = "",
 ) -> RecipeVariables:
     """The elementary variables of the application, members of instances and elements of arrays among them.
 
@@ -136,7 +140,7 @@ async def list_recipe_variables(
     if built.package is None:
         name = built.application.name
         raise Problem(409, "build-errors", f"'{name}' has errors, so that its variables are not known.")
-    return await run_in_threadpool(service.variables, built.package, definition, query)
+    return await run_in_threadpool(service.variables, built.package, definition, query, below)
 
 
 @router.post("/projects/{project_id}/recipes/{definition_id}/file")

@@ -12,7 +12,7 @@ from tappet.codegen.symbol_map import Child, SymbolError, SymbolMap
 from tappet.project.kinds.application import APPLICATION
 from tappet.project.model import ProjectObject
 from tappet.project.naming import name_key
-from tappet.project.recipes.definition import Recipe, RecipeDefinitionData, RecipeManagerData
+from tappet.project.recipes.definition import MOST_VARIABLES, Recipe, RecipeDefinitionData, RecipeManagerData
 from tappet.project.recipes.recipe_file import RecipeFileError, RecipeFileValues, read_recipe, write_recipe
 from tappet.project.store import Store
 from tappet.server.problems import Problem
@@ -23,6 +23,7 @@ from tappet.server.values import service as values
 from tappet.server.values.shapes import NewValue, Value
 
 MOST_FOUND = 500
+MOST_WHOLES = 100
 MOST_LOOKED_AT = 200_000
 _NO_VALUES = frozenset({"pointer", "reference", "interface", "bit"})
 
@@ -140,27 +141,31 @@ def application_of(store: Store, project_id: str, definition_id: str) -> str:
     return item.id
 
 
-def variables(package: bytes, definition: Definition, query: str) -> RecipeVariables:
-    """The elementary variables of a package whose paths have all words of a query."""
+def variables(package: bytes, definition: Definition, query: str, below: str = "") -> RecipeVariables:
+    """The elementary variables of a package that have all words of a query in their paths."""
     symbols = CodePackage.from_bytes(package).symbols
     words = [word.upper() for word in query.split()]
+    most = MOST_VARIABLES if below else MOST_FOUND
     found: list[RecipeVariableType] = []
+    wholes: list[RecipeVariableType] = []
     more = False
-    for number, child in enumerate(_elementary(symbols, "")):
+    for number, child in enumerate(_variables(symbols, below)):
         fits = all(word in child.path.upper() for word in words)
-        if number >= MOST_LOOKED_AT or (fits and len(found) == MOST_FOUND):
+        if number >= MOST_LOOKED_AT or (fits and len(found) == most):
             more = True
             break
-        if fits:
+        if fits and child.leaf:
             found.append(RecipeVariableType(path=child.path, type=child.type))
+        elif fits and len(wholes) < MOST_WHOLES:
+            wholes.append(RecipeVariableType(path=child.path, type=child.type))
     types = {}
     for variable in definition.data.variables:
         with suppress(SymbolError):
             types[variable.path] = symbols.resolve(variable.path).type.name
-    return RecipeVariables(found=found, more=more, types=types)
+    return RecipeVariables(found=found, wholes=wholes, more=more, types=types)
 
 
-def _elementary(symbols: SymbolMap, path: str) -> Iterator[Child]:
+def _variables(symbols: SymbolMap, path: str) -> Iterator[Child]:
     """What lies below a path, down to values; what is made of recipes and axes is left out."""
     try:
         children = symbols.children(path)
@@ -170,7 +175,12 @@ def _elementary(symbols: SymbolMap, path: str) -> Iterator[Child]:
         if not path and child.name.startswith(("IoConfig_", "_")):
             continue
         if not child.leaf:
-            yield from _elementary(symbols, child.path)
+            members = _variables(symbols, child.path)
+            if (first := next(members, None)) is not None:
+                if path:
+                    yield child
+                yield first
+                yield from members
         elif "CONSTANT" not in child.flags and child.kind not in _NO_VALUES and child.section != "VAR_IN_OUT":
             yield child
 

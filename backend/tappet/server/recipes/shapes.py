@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from datetime import datetime
+from typing import Annotated, ClassVar, Self
 
-from pydantic import Field, StringConstraints
+from pydantic import Base64Bytes, Field, StringConstraints, model_validator
 
+from tappet.runtime.file_access import LARGEST
 from tappet.server.shapes import Reply, Request
 from tappet.server.values.shapes import Value
 
@@ -61,8 +63,47 @@ class RecipeVariables(Reply):
     """Variables that a recipe definition can have."""
 
     found: list[RecipeVariableType]
+    wholes: list[RecipeVariableType] = Field(
+        description="Structures, arrays and instances that fit: all members are added in one step (`below`)."
+    )
     more: bool = Field(description="There are more that fit; ask for less.")
     types: dict[str, str] = Field(description="The types of the variables that the definition has, by path.")
+
+
+class ControllerFile(Reply):
+    """A recipe file in the controller."""
+
+    recipe: str
+    name: str = Field(description="Of the file.")
+    size: int = Field(description="Bytes.")
+    modified: datetime
+
+
+class ControllerFiles(Reply):
+    """The recipe files of a definition in the controller, by name."""
+
+    folder: str = Field(description="Below the folder of files of the application.")
+    files: list[ControllerFile]
+
+
+class FileContent(Request):
+    """What a recipe file is to hold."""
+
+    text: Annotated[str, StringConstraints(max_length=4_000_000)] | None = None
+    base64: Annotated[Base64Bytes, Field(max_length=LARGEST)] | None = Field(
+        default=None, description="Of a binary file, instead of the text."
+    )
+
+    @model_validator(mode="after")
+    def _one(self) -> Self:
+        if (self.text is None) == (self.base64 is None):
+            raise ValueError("a file has a text or base64, one of them")
+        return self
+
+    @property
+    def data(self) -> bytes:
+        """The bytes of the file."""
+        return self.base64 if self.base64 is not None else (self.text or "").encode()
 
 
 class RecipeText(Request):

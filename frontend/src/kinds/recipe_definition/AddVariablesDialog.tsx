@@ -6,10 +6,10 @@ import { FormDialog } from '@/ui/FormDialog';
 import { cursorAfterKey } from '@/ui/grid/cursor';
 import { Grid, type GridColumn } from '@/ui/grid/Grid';
 import { useGridSelection } from '@/ui/grid/useGridSelection';
-import { explain } from '@/ui/notices';
-import type { RecipeDefinition } from './model';
+import { explain, notifyError } from '@/ui/notices';
+import { offered, type RecipeDefinition } from './model';
 import styles from './Recipes.module.css';
-import { useRecipeVariables } from './queries';
+import { membersOf, useRecipeVariables } from './queries';
 
 interface AddVariablesDialogProps {
   projectId: string;
@@ -24,9 +24,24 @@ export function AddVariablesDialog({ projectId, objectId, definition, close }: A
   const [query, setQuery] = useState('');
   const { data, error, isPending } = useRecipeVariables(projectId, objectId, useDeferredValue(query));
   const there = new Set(definition.variables.map(({ path }) => path.toUpperCase()));
-  const found = (data?.found ?? []).filter(({ path }) => !there.has(path.toUpperCase()));
+  const free = (data?.found ?? []).filter(({ path }) => !there.has(path.toUpperCase()));
+  const found = offered(free, data?.wholes ?? []);
   const selection = useGridSelection(found.length);
-  const chosen = found.filter((_, at) => selection.selected.has(at)).map(({ path }) => path);
+  const chosen = found.filter((_, at) => selection.selected.has(at));
+  const [busy, setBusy] = useState(false);
+  /** A whole stands for all its members. */
+  const add = async () => {
+    setBusy(true);
+    try {
+      const paths = await Promise.all(
+        chosen.map(({ path, whole }) => (whole ? membersOf(projectId, objectId, path) : Promise.resolve([path]))),
+      );
+      close(paths.flat());
+    } catch (fault) {
+      notifyError(fault);
+      setBusy(false);
+    }
+  };
   const columns: GridColumn[] = [
     { id: 'path', title: t('recipes.column.path'), width: 320, grow: true, code: true },
     { id: 'type', title: t('recipes.column.type'), width: 140, code: true },
@@ -45,9 +60,9 @@ export function AddVariablesDialog({ projectId, objectId, definition, close }: A
       description={t('recipes.addVariablesText')}
       width={640}
       action={t('action.add')}
-      disabledReason={chosen.length > 0 ? null : t('recipes.chooseVariable')}
+      disabledReason={busy ? t('recipes.building') : chosen.length > 0 ? null : t('recipes.chooseVariable')}
       onClose={() => close()}
-      onSubmit={() => close(chosen)}
+      onSubmit={() => void add()}
       aside={<span className={styles.count}>{t('recipes.chosen', { count: chosen.length })}</span>}
     >
       <TextInput
@@ -67,11 +82,22 @@ export function AddVariablesDialog({ projectId, objectId, definition, close }: A
           columns={columns}
           count={found.length}
           keyOf={(at) => found[at]?.path ?? ''}
-          cell={(at, column) => found[at]?.[column.id as 'path' | 'type']}
+          cell={(at, column) => {
+            const row = found[at];
+            if (row === undefined) return null;
+            if (column.id === 'type') return row.type;
+            return row.whole ? (
+              <>
+                {row.path} <span className={styles.count}>{t('recipes.whole')}</span>
+              </>
+            ) : (
+              row.path
+            );
+          }}
           selected={selection.selected}
           cursor={selection.cursor}
           onCursor={selection.move}
-          onEdit={() => chosen.length > 0 && close(chosen)}
+          onEdit={() => chosen.length > 0 && !busy && void add()}
           empty={
             <Empty
               title={

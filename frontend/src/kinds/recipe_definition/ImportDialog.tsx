@@ -1,11 +1,9 @@
 import { useState } from 'react';
-import { api } from '@/api/client';
 import { TextImportDialog } from '@/editors/form/TextImportDialog';
 import { useText } from '@/i18n';
 import { Field, Select } from '@/ui/Field';
-import { notify } from '@/ui/notices';
-import { addRecipe, addVariables, freeName, nameFault, setValues } from './model';
 import type { RecipeScene } from './scene';
+import { takeFile } from './takeFile';
 
 /** Stands for a recipe that is not there yet. */
 const ANOTHER = '\n';
@@ -16,34 +14,7 @@ export function ImportDialog({ scene, close }: { scene: RecipeScene; close: (ans
   const { definition, recipe } = scene;
   const [into, setInto] = useState(recipe ?? ANOTHER);
   const take = async (text: string, fileName: string) => {
-    const found = await api.post('/api/v1/projects/{project_id}/recipes/{definition_id}/file', {
-      params: { path: { project_id: scene.projectId, definition_id: scene.objectId } },
-      body: { text },
-    });
-    const wanted = fileName.split('.')[0] ?? '';
-    const name =
-      into !== ANOTHER
-        ? into
-        : nameFault(definition, wanted, null) === null
-          ? wanted
-          : freeName(definition, t('recipes.newName'));
-    const there = definition.recipes.some((one) => one.name === name) ? definition : addRecipe(definition, name, null);
-    // A definition without variables is made of its first file.
-    const first = definition.variables.length === 0;
-    const filled = first ? addVariables(there, found.unknown, 0) : there;
-    scene.change(setValues(filled, name, found.values));
-    scene.choose(name);
-    if (found.unknown.length > 0 || found.missing.length > 0)
-      notify({
-        tone: 'info',
-        title: t('recipes.imported', { count: Object.keys(found.values).length, name }),
-        text: [
-          found.unknown.length > 0 && t('recipes.unknown', { paths: found.unknown.slice(0, 5).join(', ') }),
-          found.missing.length > 0 && t('recipes.missing', { paths: found.missing.slice(0, 5).join(', ') }),
-        ]
-          .filter(Boolean)
-          .join(' '),
-      });
+    await takeFile(scene, text, into === ANOTHER ? null : into, fileName.split('.')[0] ?? '');
   };
   return (
     <TextImportDialog

@@ -15,6 +15,7 @@ const IN_MENU: readonly RecipeActId[] = [
   'recipes.removeRecipe',
   'recipes.import',
   'recipes.export',
+  'recipes.files',
 ];
 
 interface RecipeToolbarProps {

@@ -9,6 +9,7 @@ export const RECIPE_ACTS = [
   { id: 'recipes.write', needs: ['application', 'operating', 'recipe'] },
   { id: 'recipes.import', needs: ['editing'] },
   { id: 'recipes.export', needs: ['recipe'] },
+  { id: 'recipes.files', needs: ['application', 'editing'] },
 ] as const satisfies readonly { id: string; needs: readonly RecipeNeed[] }[];
 
 export type RecipeNeed = 'application' | 'editing' | 'operating' | 'recipe' | 'rows';

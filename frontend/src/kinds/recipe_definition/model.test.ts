@@ -14,6 +14,7 @@ import {
   setCell,
   setValues,
   type RecipeDefinition,
+  offered,
 } from './model';
 
 const row = (path: string) => ({ path, name: '', minimum: '', maximum: '', comment: '' });
@@ -99,3 +100,16 @@ test.each(['', '5', '-1.5E-3', '16#F0', 'INT#-5', 'TRUE', 'T#1h2m', 'D#2026-01-0
     expect(cellFault(BREAD, 0, recipeColumn('Light'), value)).toBeNull();
   },
 );
+
+describe('what can be added', () => {
+  it('has a whole before its first member, or at the end where no member is offered', () => {
+    const one = (path: string) => ({ path, type: 'INT' });
+    const rows = offered(
+      [one('P.a'), one('P.fb.in.x'), one('P.fb.q'), one('P.arr[1]')],
+      [one('P.fb'), one('P.fb.in'), one('P.arr'), one('P.ar')],
+    );
+    expect(rows.map(({ path, whole }) => (whole ? `(${path})` : path))).toEqual([
+      'P.a', '(P.fb)', '(P.fb.in)', 'P.fb.in.x', 'P.fb.q', '(P.arr)', 'P.arr[1]', '(P.ar)',
+    ]); // prettier-ignore
+  });
+});

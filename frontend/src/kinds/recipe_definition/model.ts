@@ -11,7 +11,7 @@ const RECIPE = 'recipe:';
 
 export const recipeColumn = (name: string) => `${RECIPE}${name}`;
 export const recipeOfColumn = (column: string) => (column.startsWith(RECIPE) ? column.slice(RECIPE.length) : null);
-const sameName = (one: string, other: string) => one.toUpperCase() === other.toUpperCase();
+export const sameName = (one: string, other: string) => one.toUpperCase() === other.toUpperCase();
 
 export function cellText(definition: RecipeDefinition, row: number, column: string): string {
   const variable = definition.variables[row];
@@ -69,6 +69,25 @@ export function setValues(
 }
 
 /** With further variables behind a row; those that are there already are left out. */
+interface Offered {
+  readonly path: string;
+  readonly type: string;
+}
+
+/** What can be added, in order: a structure, array or instance stands before its first member that is offered. */
+export function offered<Item extends Offered>(
+  found: readonly Item[],
+  wholes: readonly Item[],
+): (Item & { whole: boolean })[] {
+  const rest = [...wholes];
+  const rows = found.flatMap((item) => {
+    const before = rest.filter(({ path }) => item.path.startsWith(`${path}.`) || item.path.startsWith(`${path}[`));
+    for (const whole of before) rest.splice(rest.indexOf(whole), 1);
+    return [...before.map((whole) => ({ ...whole, whole: true })), { ...item, whole: false }];
+  });
+  return [...rows, ...rest.map((whole) => ({ ...whole, whole: true }))];
+}
+
 export function addVariables(definition: RecipeDefinition, paths: readonly string[], at: number): RecipeDefinition {
   const added: RecipeVariable[] = [];
   for (const path of paths.map((one) => one.trim()))

@@ -15,6 +15,14 @@ export function useRecipeVariables(projectId: string, objectId: string, query: s
   });
 }
 
+/** All elementary variables of a structure, an array or an instance. */
+export async function membersOf(projectId: string, objectId: string, below: string): Promise<readonly string[]> {
+  const { found } = await api.get('/api/v1/projects/{project_id}/recipes/{definition_id}/variables', {
+    params: { path: { project_id: projectId, definition_id: objectId }, query: { below } },
+  });
+  return found.map(({ path }) => path);
+}
+
 const LOOK_MS = 1000;
 
 /** The variables of the definition beside their values in the controller; nothing while logged out. */

@@ -6,9 +6,12 @@ import { openDialog } from '@/ui/dialogs';
 import { notify, notifyError } from '@/ui/notices';
 import { saveBlob } from '@/workbench/downloadFile';
 import type { Enablement, Handlers, Reason } from '@/workbench/commands';
-import { runCommand } from '@/workbench/run';
+import { operator } from '@/workbench/conditions';
+import { commandContext } from '@/workbench/context';
+import { reasonText, runCommand } from '@/workbench/run';
 import { RECIPE_ACTS, type RecipeActId, type RecipeNeed } from './acts';
 import { AddVariablesDialog } from './AddVariablesDialog';
+import { ControllerFilesDialog } from './ControllerFilesDialog';
 import { ImportDialog } from './ImportDialog';
 import { addRecipe, addVariables, freeName, removeRecipe, removeVariables, renameRecipe } from './model';
 import { RecipeNameDialog } from './RecipeNameDialog';
@@ -95,6 +98,20 @@ const RUN: Readonly<Record<RecipeActId, (scene: RecipeScene) => Promise<void> | 
   'recipes.write': (scene) => (scene.session ? write(scene, scene.session.runtimeId) : undefined),
   'recipes.import': (scene) => void openDialog((close) => <ImportDialog scene={scene} close={close} />),
   'recipes.export': exportFile,
+  'recipes.files': async (scene) => {
+    if (!scene.session) return;
+    await stored();
+    const { runtimeId } = scene.session;
+    const fixed = operator(commandContext());
+    await openDialog((close) => (
+      <ControllerFilesDialog
+        scene={scene}
+        runtimeId={runtimeId}
+        fixed={fixed === true ? null : reasonText(fixed)}
+        close={close}
+      />
+    ));
+  },
 };
 
 /** The acts of the definition that is shown, as commands find them: the same object until what is possible changes. */
