@@ -102,7 +102,7 @@ test.each(['', '5', '-1.5E-3', '16#F0', 'INT#-5', 'TRUE', 'T#1h2m', 'D#2026-01-0
 );
 
 describe('what can be added', () => {
-  it('has a whole before its first member, or at the end where no member is offered', () => {
+  test('has a whole before its first member, or at the end where no member is offered', () => {
     const one = (path: string) => ({ path, type: 'INT' });
     const rows = offered(
       [one('P.a'), one('P.fb.in.x'), one('P.fb.q'), one('P.arr[1]')],
