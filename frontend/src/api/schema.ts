@@ -5871,6 +5871,12 @@ export interface components {
          */
         DownloadOrder: {
             /**
+             * Initialise Persistent
+             * @description Give all persistent variables their initial values, by a reset origin before the download.
+             * @default false
+             */
+            initialise_persistent?: boolean;
+            /**
              * Mode
              * @enum {string}
              */
@@ -7367,6 +7373,12 @@ export interface components {
              */
             loaded_project: string | null;
             /**
+             * Persistent
+             * @description Persistent variables that a download cannot keep: renamed, removed, or of another type.
+             * @default []
+             */
+            persistent: components["schemas"]["PersistentChange"][];
+            /**
              * Reasons
              * @description What differs, one sentence each.
              */
@@ -8361,6 +8373,19 @@ export interface components {
             cycle: number;
             /** Values */
             values: components["schemas"]["Value"][];
+        };
+        /**
+         * PersistentChange
+         * @description A persistent variable whose value a download cannot keep.
+         */
+        PersistentChange: {
+            /** Path */
+            path: string;
+            /**
+             * Reason
+             * @enum {string}
+             */
+            reason: "removed" | "type_changed";
         };
         /**
          * PersistentData

@@ -17,9 +17,10 @@ from tappet.project.store.records import UnknownProjectError
 from tappet.runtime.client import RuntimeRefused
 from tappet.runtime.exception_report import summary
 from tappet.runtime.operations.download import ReadImageMemory
-from tappet.runtime.operations.life_cycle import Start
+from tappet.runtime.operations.life_cycle import Reset, Start
 from tappet.server.builds.builder import Application, Builder, Built
 from tappet.server.builds.packages import PackageStore, StoredPackage
+from tappet.server.builds.persistent_changes import persistent_changes
 from tappet.server.builds.shapes import BuildReport, ChangedVariable, LoginReport, Relation, ReserveUse
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
@@ -27,7 +28,7 @@ from tappet.server.runtimes.plc_client import LoadMode
 from tappet.translation.language import Language
 
 log = logging.getLogger(__name__)
-Step = Literal["download", "online_change", "start"]
+Step = Literal["reset_origin", "download", "online_change", "start"]
 Begin = Callable[[Step, Built], Awaitable[None]]
 """Called with what is to be done next; when it raises, it is not done."""
 
@@ -145,6 +146,8 @@ class Commissioning:
             return LoginReport(relation=Relation.DOWNLOAD, reasons=[reason, *_first_errors(built, language)])
         if built.report.code_id == info.code_id:
             return LoginReport(relation=Relation.SAME, reasons=[])
+        package = _package(built, "compared")
+        persistent = await run_in_threadpool(persistent_changes, loaded.data, package)
         if built.change_base == info.code_id:
             reasons = list(built.change_reasons) or ["Only code has changed; all data stay in place."]
             reserve = await _reserve_use(link, built)
@@ -154,16 +157,19 @@ class Commissioning:
                     f"changes, which has {reserve.reserved}; download. The properties of the application set "
                     "how much a download reserves."
                 )
-                return LoginReport(relation=Relation.DOWNLOAD, reasons=[reason], reserve=reserve)
+                return LoginReport(
+                    relation=Relation.DOWNLOAD, reasons=[reason], reserve=reserve, persistent=persistent
+                )
             return LoginReport(
                 reserve=reserve,
                 relation=Relation.ONLINE_CHANGE,
                 reasons=reasons,
                 changes=[ChangedVariable(**structs.asdict(row)) for row in built.changes.rows],
                 changes_omitted=built.changes.omitted,
+                persistent=persistent,
             )
         reasons = list(built.change_reasons) or ["The running application is another one."]
-        return LoginReport(relation=Relation.DOWNLOAD, reasons=reasons)
+        return LoginReport(relation=Relation.DOWNLOAD, reasons=reasons, persistent=persistent)
 
     def _project_name(self, project_id: str) -> str | None:
         """None for a project that has been deleted since."""
@@ -181,9 +187,11 @@ class Commissioning:
         start: bool,
         begin: Begin,
         project: Project,
+        *,
+        initialise_persistent: bool = False,
     ) -> Built:
         """Builds and loads; `begin` is called right before what changes the runtime. `project` is what is
-        built, with its further files.
+        built, with its further files. A download may begin with new persistent variables.
 
         Raises problems: 422 errors in the project, 409 no such online change, or loaded but not started.
         """
@@ -206,8 +214,11 @@ class Commissioning:
         code_id = built.report.code_id
         # Kept first: without it the next login would take the application for a stranger's.
         await run_in_threadpool(self.packages.put, project_id, application_id, code_id, package)
-        await begin(mode, built)
         async with link.client() as client:
+            if initialise_persistent and mode == "download" and loaded is not None:
+                await begin("reset_origin", built)
+                await client.call(Reset("origin"))
+            await begin(mode, built)
             await client.download(package, mode)
         try:  # what is loaded runs without it, too
             await run_in_threadpool(self.packages.put_source, project_id, application_id, code_id, project)

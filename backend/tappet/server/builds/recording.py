@@ -15,7 +15,7 @@ def recording(act: ActRecord, project_id: str, link: RuntimeLink) -> Begin:
 
     async def begin(step: Step, built: Built) -> None:
         name, code_id = built.application.name, built.report.code_id
-        values = (None, None) if step == "start" else (old, code_id)
+        values = (None, None) if step in ("start", "reset_origin") else (old, code_id)
         await act.begin_async(Act(step.replace("_", "-"), name, *values, project_id, link.id))
 
     return begin

@@ -113,6 +113,13 @@ class ReserveUse(Reply):
     reserved: int = Field(description="In all.")
 
 
+class PersistentChange(Reply):
+    """A persistent variable whose value a download cannot keep."""
+
+    path: str
+    reason: Literal["removed", "type_changed"]
+
+
 class LoginReport(Reply):
     """Whether values may be shown at once, and what must be loaded first otherwise."""
 
@@ -127,6 +134,10 @@ class LoginReport(Reply):
     reserve: ReserveUse | None = Field(
         default=None, description="For an online change: how much of the reserved memory it takes."
     )
+    persistent: list[PersistentChange] = Field(
+        default=[],
+        description="Persistent variables that a download cannot keep: renamed, removed, or of another type.",
+    )
     loaded_project: str | None = Field(
         default=None, description="Name of the project that the runtime's application came from, when known."
     )
@@ -138,6 +149,10 @@ class DownloadOrder(Request):
     runtime_id: str
     mode: Literal["download", "online_change"]
     start: bool = Field(default=True, description="Start after a download; an online change never stops.")
+    initialise_persistent: bool = Field(
+        default=False,
+        description="Give all persistent variables their initial values: a reset origin before a download.",
+    )
     source: bool | None = Field(
         default=None,
         description="Store the source of the project in the controller, too; null: as the application says.",

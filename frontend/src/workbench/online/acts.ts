@@ -212,7 +212,7 @@ export async function login(context: CommandContext): Promise<void> {
     runtimePolled(runtime.id, runtime);
     return;
   }
-  await load(context, runtime.id, choice.how, choice.start);
+  await load(context, runtime.id, choice.how, choice.start, choice.fresh);
 }
 
 /** What does not build cannot be loaded: its last loaded state may still be looked at. */
@@ -238,6 +238,7 @@ const NOTHING_TO_LOAD: LoginAnswer = {
   changes_omitted: 0,
   reserve: null,
   loaded_project: null,
+  persistent: [],
 };
 
 /** Brings the built application into the runtime and shows its values from then on. */
@@ -246,13 +247,14 @@ async function load(
   runtimeId: string,
   mode: 'download' | 'online_change',
   start: boolean,
+  fresh = false,
 ): Promise<void> {
   const name = nameOf(context);
   const source = await sourceWanted(context);
   const done = await busy(t(mode === 'download' ? 'busy.download' : 'busy.onlineChange', { name }), () =>
     api.post('/api/v1/projects/{project_id}/applications/{application_id}/download', {
       params: { path: applicationPath(context) },
-      body: { runtime_id: runtimeId, mode, start, source },
+      body: { runtime_id: runtimeId, mode, start, source, initialise_persistent: fresh },
     }),
   );
   relationKnown(context.applicationId!, runtimeId, NOTHING_TO_LOAD);
@@ -299,7 +301,7 @@ export async function onlineChange(context: CommandContext, ask = false): Promis
     // Where only a download can load this change, the dialog says what stands in the way.
     const question = { answer, ...namesOf(context), runtime: session.runtime, mayLoad: true };
     const choice = await askLogin(question);
-    if (choice && choice.how !== 'without') await load(context, session.runtimeId, choice.how, choice.start);
+    if (choice && choice.how !== 'without') await load(context, session.runtimeId, choice.how, choice.start, choice.fresh);
   }
 }
 

@@ -15,6 +15,8 @@ export interface LoginChoice {
   how: LoginHow;
   /** After a download: start at once. */
   start: boolean;
+  /** Persistent variables begin with their initial values, all of them. */
+  fresh: boolean;
 }
 
 interface LoginQuestion {
@@ -78,6 +80,7 @@ function LoginDialog({
   const proposed = proposedChoice(choices, running);
   const [how, setHow] = useState(proposed ?? choices[0]!);
   const [start, setStart] = useState(running);
+  const [fresh, setFresh] = useState(false);
   const otherProject = answer.loaded_project ?? '';
   const values = { application, project, runtime: runtime.name, other: runtime.application ?? '', otherProject };
   const relation = answer.relation === 'foreign' && otherProject !== '' ? 'foreignProject' : answer.relation;
@@ -87,7 +90,7 @@ function LoginDialog({
       description={t(`login.relation.${relation}`, values)}
       width={answer.changes.length > 0 ? 860 : 520}
       onClose={() => close()}
-      onSubmit={() => close({ how, start: how === 'download' && start })}
+      onSubmit={() => close({ how, start: how === 'download' && start, fresh: how === 'download' && fresh })}
       action={t(`login.do.${how}`)}
       focusAction={proposed !== null}
       focusCancel={proposed === null}
@@ -114,12 +117,43 @@ function LoginDialog({
       {how === 'download' && (
         <>
           {running && <p className={styles.warning}>{t('login.stops')}</p>}
+          {answer.persistent.length > 0 && (
+            <Persistent changes={answer.persistent} fresh={fresh} onFresh={setFresh} />
+          )}
           <Checkbox checked={start} onChecked={setStart}>
             {t('login.startAfter')}
           </Checkbox>
         </>
       )}
     </FormDialog>
+  );
+}
+
+/** The persistent variables that the download cannot keep, and what is to become of the others (PERS-05). */
+function Persistent({
+  changes,
+  fresh,
+  onFresh,
+}: {
+  changes: LoginAnswer['persistent'];
+  fresh: boolean;
+  onFresh: (fresh: boolean) => void;
+}) {
+  useText();
+  return (
+    <div role="group" aria-label={t('login.persistent')}>
+      <p className={styles.warning}>{t('login.persistentLost', { count: changes.length })}</p>
+      <ul className={styles.persistent}>
+        {changes.map(({ path, reason }) => (
+          <li key={path}>
+            <span className="code">{path}</span> · {t(`login.persistent.${reason}`)}
+          </li>
+        ))}
+      </ul>
+      <Checkbox checked={fresh} onChecked={onFresh}>
+        {t('login.persistentFresh')}
+      </Checkbox>
+    </div>
   );
 }
 
