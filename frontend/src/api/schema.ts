@@ -5872,7 +5872,7 @@ export interface components {
         DownloadOrder: {
             /**
              * Initialise Persistent
-             * @description Give all persistent variables their initial values, by a reset origin before the download.
+             * @description Give all persistent variables their initial values: a reset origin before a download.
              * @default false
              */
             initialise_persistent?: boolean;

@@ -301,7 +301,8 @@ export async function onlineChange(context: CommandContext, ask = false): Promis
     // Where only a download can load this change, the dialog says what stands in the way.
     const question = { answer, ...namesOf(context), runtime: session.runtime, mayLoad: true };
     const choice = await askLogin(question);
-    if (choice && choice.how !== 'without') await load(context, session.runtimeId, choice.how, choice.start, choice.fresh);
+    if (choice && choice.how !== 'without')
+      await load(context, session.runtimeId, choice.how, choice.start, choice.fresh);
   }
 }
 

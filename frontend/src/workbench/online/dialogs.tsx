@@ -117,9 +117,7 @@ function LoginDialog({
       {how === 'download' && (
         <>
           {running && <p className={styles.warning}>{t('login.stops')}</p>}
-          {answer.persistent.length > 0 && (
-            <Persistent changes={answer.persistent} fresh={fresh} onFresh={setFresh} />
-          )}
+          {answer.persistent.length > 0 && <Persistent changes={answer.persistent} fresh={fresh} onFresh={setFresh} />}
           <Checkbox checked={start} onChecked={setStart}>
             {t('login.startAfter')}
           </Checkbox>
