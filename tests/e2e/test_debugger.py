@@ -87,6 +87,7 @@ def test_a_breakpoint_with_conditions_is_edited_in_its_dialog(debugged: Page, se
     page.keyboard.press("Alt+F9")
     dialog = page.get_by_role("dialog", name="Breakpoint")
     expect(dialog).to_be_visible(timeout=60_000)
+    expect(dialog.get_by_label("Task")).to_contain_text("All tasks")
     picture(page, "debugger-dialog")
     dialog.get_by_label("Condition").fill("iLoaded = 77")
     dialog.get_by_role("button", name="Apply").click()

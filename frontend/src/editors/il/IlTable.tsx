@@ -63,7 +63,7 @@ export function IlTable(props: IlTableProps) {
   const prepare = usePrepare(runtimeId);
   const bookmarked = useBookmarkedLines({ objectId: object.id, part: 'implementation' });
   const marked = useMemo(() => new Set(bookmarked.map((line) => rowAt(rows, line))), [bookmarked, rows]);
-  const breakpoints = useRowBreakpoints(runtimeId, object.id, rows);
+  const breakpoints = useRowBreakpoints(session, object.id, rows);
   const fault = faultLine(session?.runtime?.exception, object.id, 'implementation');
 
   const { cursor, selected } = selection;

@@ -1,6 +1,7 @@
 import { useMemo } from 'react';
 import { guard } from '@/ui/notices';
 import { breakpointLine, currentLine, lookOf, useDebugger, type BreakpointLook } from '@/workbench/debugger/state';
+import type { OnlineSession } from '@/workbench/onlineSession';
 import { toggleBreakpointAt } from '../online/breakpointActs';
 import { rowAt, type IlRow } from './rows';
 
@@ -21,7 +22,12 @@ interface RowBreakpoints {
 }
 
 /** Breakpoints of the rows of a body, and where the task that is looked at stands in it. */
-export function useRowBreakpoints(runtimeId: string | null, objectId: string, rows: readonly IlRow[]): RowBreakpoints {
+export function useRowBreakpoints(
+  session: OnlineSession | null,
+  objectId: string,
+  rows: readonly IlRow[],
+): RowBreakpoints {
+  const runtimeId = session?.runtimeId ?? null;
   const debugged = useDebugger(({ runtimes }) => (runtimeId === null ? undefined : runtimes[runtimeId]));
   const marks = useMemo(() => {
     const found = new Map<number, RowBreakpoint>();
@@ -33,7 +39,8 @@ export function useRowBreakpoints(runtimeId: string | null, objectId: string, ro
     }
     return found;
   }, [debugged, objectId, rows]);
-  const at = currentLine(debugged, { objectId, part: 'implementation' });
+  // Where a task stands now says nothing about a past cycle.
+  const at = session?.past != null ? null : currentLine(debugged, { objectId, part: 'implementation' });
   const current = at === null ? null : rowAt(rows, at.line, Infinity);
   const toggle =
     runtimeId === null

@@ -15,7 +15,9 @@ const GUTTER_LINE_DECORATIONS = 4;
 
 /** Breakpoints beside the lines of a text, and the line at which the task that is looked at stands. */
 export function useBreakpoints(projectId: string, object: ObjectSummary, part: Part, editor: CodeEditor | null): void {
-  const runtimeId = useObjectSession(projectId, object)?.runtimeId ?? null;
+  const session = useObjectSession(projectId, object);
+  const runtimeId = session?.runtimeId ?? null;
+  const past = session?.past != null;
   const debugged = useDebugger(({ runtimes }) => (runtimeId === null ? undefined : runtimes[runtimeId]));
   const language = useLanguage();
   const objectId = object.id;
@@ -42,7 +44,7 @@ export function useBreakpoints(projectId: string, object: ObjectSummary, part: P
     });
     const now = currentLine(debugged, of);
     const current =
-      now === null
+      now === null || past // where a task stands now says nothing about a past cycle
         ? []
         : [
             {
@@ -58,7 +60,7 @@ export function useBreakpoints(projectId: string, object: ObjectSummary, part: P
           ];
     const drawn = editor.createDecorationsCollection([...marks, ...current]);
     return () => drawn.clear();
-  }, [editor, debugged, objectId, part, language]);
+  }, [editor, debugged, objectId, part, language, past]);
 
   const shown = useRef<string>('');
   useEffect(() => {

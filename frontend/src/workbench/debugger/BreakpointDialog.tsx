@@ -10,7 +10,8 @@ import { addBreakpoint, changeBreakpoint } from './acts';
 
 type HitMode = NonNullable<BreakpointOrder['hits']>['mode'];
 const MODES = ['always', 'equal', 'from', 'every'] as const satisfies readonly NonNullable<HitMode>[];
-const ANY = '';
+/** No name of a task; an empty one would show nothing in the field. */
+const ANY = '*';
 
 /** Asks what a breakpoint is to do. */
 export async function editBreakpoint(runtimeId: string, breakpoint: Breakpoint): Promise<void> {

@@ -8,12 +8,7 @@ import type { Column } from '@/ui/table';
 import styles from '../online/CallStackPanel.module.css';
 import { writeVariable } from './acts';
 import own from './Debugger.module.css';
-
-/** What a value looks like in a row: its literal, or the parts of a structure. */
-export function valueText({ literal, value }: Pick<FrameVariable, 'literal' | 'value'>): string {
-  if (literal !== '') return literal;
-  return value === null || value === undefined ? '–' : JSON.stringify(value);
-}
+import { valueText } from './valueText';
 
 /** The variables of a level of the call stack; Enter or a double click writes one. */
 export function FrameVariables({ runtimeId, variables }: { runtimeId: string; variables: readonly FrameVariable[] }) {
