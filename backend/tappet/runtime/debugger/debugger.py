@@ -17,14 +17,14 @@ from tappet.runtime.contexts import RUNNING, STOPPED
 from tappet.runtime.debugger import frames, kept, log_points
 from tappet.runtime.debugger.breakpoints import MOST, BreakpointTable, Wanted
 from tappet.runtime.debugger.flow_control import FlowControl
-from tappet.runtime.debugger.places import code_spot, line_of
+from tappet.runtime.debugger.next_statement import next_statement
+from tappet.runtime.debugger.places import code_spot
 from tappet.runtime.debugger.shapes import (
     Breakpoint,
     BreakpointOrder,
     Command,
     DebugState,
     FlowSnapshot,
-    Frame,
     Halt,
     Reason,
     Settings,
@@ -381,7 +381,7 @@ class Debugger:
             mode = _INTO
         elif command == "next_statement":
             assert spot is not None
-            variant.tasks[task]["jump"] = 1 + self._target(variant, task, spot)
+            variant.tasks[task]["jump"] = 1 + next_statement(variant, task, spot)
             mode = _INTO
         else:
             mode = _FRAMES
@@ -391,26 +391,6 @@ class Debugger:
                 frames.mark(variant, activation, self._last_step)
             variant.tasks[task]["mark"] = self._last_step
         self._go_on(variant, [task], mode)
-
-    def _target(self, variant: Variant, task: int, spot: Spot) -> int:
-        """The statement of the halted function that a place names."""
-        here = frames.stack_of_halted(variant, task).activations[0]
-        line = line_of(variant.application.package.source_maps, spot)
-        if isinstance(line, str):
-            raise DebugError(line)
-        first = variant.firsts[variant.functions.index(here.function)]
-        inside = range(first, first + len(here.function.sites))
-        found = [number - first for number in variant.sites_at(*line) if number in inside]
-        if not found:
-            raise DebugError(f"the place is not in '{here.function.name}', where the task is halted")
-        if here.function.fixed_order == "try":
-            raise DebugError("the next statement cannot be set in a body that contains __TRY")
-        if here.function.fixed_order:
-            raise DebugError("the body has too many statements to set the next one")
-        loops = here.function.sites[found[0]].loops
-        if here.site.loops[: len(loops)] != loops:
-            raise DebugError("the next statement cannot be set inside a loop that the task is not in")
-        return found[0]
 
     def _await_halt(self, variant: Variant, task: int) -> None:
         end = time.monotonic() + STEP_PATIENCE_S
@@ -444,15 +424,7 @@ class Debugger:
         with self._lock:
             variant = self._need()
             number, found = self._stack(variant, task)
-            maps = variant.application.package.source_maps
-            levels = [
-                Frame(
-                    index,
-                    code_spot(maps, activation.function, activation.site),
-                    frames.FrameValues(variant, found, activation).instance(),
-                )
-                for index, activation in enumerate(found.activations)
-            ]
+            levels = frames.levels(variant, found)
             name = variant.application.package.tasks[number].name
             return Stack(name, variant.application.contexts.tasks[number]["cycle"], levels)
 

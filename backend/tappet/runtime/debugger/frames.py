@@ -9,7 +9,8 @@ from tappet.codegen import values
 from tappet.codegen.debug_code import DebugFunction, FrameVariable, StatementSite
 from tappet.codegen.symbol_map import SymbolMap
 from tappet.codegen.symbol_types import TypeInfo
-from tappet.runtime.debugger.shapes import Scope, Variable
+from tappet.runtime.debugger.places import code_spot
+from tappet.runtime.debugger.shapes import Frame, Scope, Variable
 from tappet.runtime.debugger.variant import Variant
 from tappet.runtime.places import Place, path_at
 from tappet.runtime.posix import read_memory, write_memory
@@ -211,3 +212,16 @@ def mark(variant: Variant, frame: Activation, number: int) -> None:
     """Let a step end in this activation."""
     place = variant.executive.layouts["DEBUG_FRAME"].members["mark"]
     write_memory(frame.address + place.offset, number.to_bytes(place.size, "little"))
+
+
+def levels(variant: Variant, stack: TaskStack) -> list[Frame]:
+    """The activations of a stack with their places and instances, the innermost first."""
+    maps = variant.application.package.source_maps
+    return [
+        Frame(
+            index,
+            code_spot(maps, activation.function, activation.site),
+            FrameValues(variant, stack, activation).instance(),
+        )
+        for index, activation in enumerate(stack.activations)
+    ]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import msgspec
 from msgspec import Meta
@@ -46,11 +48,35 @@ def _written(value: Any) -> str:
     return msgspec.json.encode(value).decode()[:1000]
 
 
+@contextmanager
+def _known_breakpoint() -> Iterator[None]:
+    try:
+        yield
+    except UnknownBreakpointError as error:
+        raise OperationError("not_found", str(error)) from error
+
+
+def _act(
+    method: Literal["POST", "PUT", "DELETE"],
+    path: str,
+    audit: Callable[[Any], Fact],
+    *,
+    variant: bool = False,
+) -> Rest:
+    """An act of an engineer, which is audited; with `variant` the instrumented code is loaded first."""
+    return Rest(method, f"/debug{path}", "engineer", audit, tag=TAG, variant=variant)
+
+
+def _view(path: str) -> Rest:
+    """A question of anybody."""
+    return Rest("GET", f"/debug{path}", "viewer", None, tag=TAG)
+
+
 class GetDebugState(Operation[DebugState], frozen=True):
     """Breakpoints, settings, and where tasks are halted."""
 
     op: ClassVar[str] = "debug_state"
-    rest: ClassVar[Rest | None] = Rest("GET", "/debug", "viewer", None, tag=TAG)
+    rest: ClassVar[Rest | None] = _view("")
 
     def run(self, plc: SoftPlc) -> DebugState:
         """As of now."""
@@ -76,12 +102,8 @@ class SetDebugSettings(Operation[DebugState], frozen=True):
     """What happens to outputs and to other tasks while a task is halted."""
 
     op: ClassVar[str] = "debug_settings"
-    rest: ClassVar[Rest | None] = Rest(
-        "PUT",
-        "/debug/settings",
-        "engineer",
-        lambda order: Fact("debug-settings", new_value=_written(order.settings)),
-        tag=TAG,
+    rest: ClassVar[Rest | None] = _act(
+        "PUT", "/settings", lambda order: Fact("debug-settings", new_value=_written(order.settings))
     )
     settings: Settings
 
@@ -94,12 +116,10 @@ class AddBreakpoint(Operation[Breakpoint], frozen=True):
     """Set a breakpoint at a line or element, or on the value of a variable."""
 
     op: ClassVar[str] = "debug_add_breakpoint"
-    rest: ClassVar[Rest | None] = Rest(
+    rest: ClassVar[Rest | None] = _act(
         "POST",
-        "/debug/breakpoints",
-        "engineer",
+        "/breakpoints",
         lambda order: Fact("breakpoint-added", new_value=_written(order.breakpoint)),
-        tag=TAG,
         variant=True,
     )
     breakpoint: BreakpointOrder
@@ -113,12 +133,10 @@ class ChangeBreakpoint(Operation[Breakpoint], frozen=True):
     """Replace a breakpoint, for instance to disable it; its hits count from 0."""
 
     op: ClassVar[str] = "debug_change_breakpoint"
-    rest: ClassVar[Rest | None] = Rest(
+    rest: ClassVar[Rest | None] = _act(
         "PUT",
-        "/debug/breakpoints/{id}",
-        "engineer",
+        "/breakpoints/{id}",
         lambda order: Fact("breakpoint-changed", new_value=_written(order.breakpoint)),
-        tag=TAG,
         variant=True,
     )
     id: int
@@ -126,40 +144,30 @@ class ChangeBreakpoint(Operation[Breakpoint], frozen=True):
 
     def run(self, plc: SoftPlc) -> Breakpoint:
         """Not found when there is none with this id."""
-        try:
+        with _known_breakpoint():
             return plc.debugger.change(self.id, self.breakpoint)
-        except UnknownBreakpointError as error:
-            raise OperationError("not_found", str(error)) from error
 
 
 class RemoveBreakpoint(Operation[None], frozen=True):
     """Remove a breakpoint."""
 
     op: ClassVar[str] = "debug_remove_breakpoint"
-    rest: ClassVar[Rest | None] = Rest(
-        "DELETE",
-        "/debug/breakpoints/{id}",
-        "engineer",
-        lambda order: Fact("breakpoint-removed", new_value=str(order.id)),
-        tag=TAG,
+    rest: ClassVar[Rest | None] = _act(
+        "DELETE", "/breakpoints/{id}", lambda order: Fact("breakpoint-removed", new_value=str(order.id))
     )
     id: int
 
     def run(self, plc: SoftPlc) -> None:
         """Not found when there is none with this id."""
-        try:
+        with _known_breakpoint():
             plc.debugger.remove(self.id)
-        except UnknownBreakpointError as error:
-            raise OperationError("not_found", str(error)) from error
 
 
 class RemoveBreakpoints(Operation[None], frozen=True):
     """Remove all breakpoints."""
 
     op: ClassVar[str] = "debug_remove_breakpoints"
-    rest: ClassVar[Rest | None] = Rest(
-        "DELETE", "/debug/breakpoints", "engineer", lambda _: Fact("breakpoints-removed"), tag=TAG
-    )
+    rest: ClassVar[Rest | None] = _act("DELETE", "/breakpoints", lambda _: Fact("breakpoints-removed"))
 
     def run(self, plc: SoftPlc) -> None:
         """Halted tasks stay halted."""
@@ -174,12 +182,10 @@ class ControlDebugger(Operation[DebugState], frozen=True):
     """
 
     op: ClassVar[str] = "debug_control"
-    rest: ClassVar[Rest | None] = Rest(
+    rest: ClassVar[Rest | None] = _act(
         "POST",
-        "/debug/control",
-        "engineer",
+        "/control",
         lambda order: Fact(f"debug-{order.command.replace('_', '-')}", new_value=order.task),
-        tag=TAG,
         variant=True,
     )
     command: Command
@@ -195,7 +201,7 @@ class GetStack(Operation[Stack], frozen=True):
     """The call stack of a halted task, or of one that an exception in instrumented code has ended."""
 
     op: ClassVar[str] = "debug_stack"
-    rest: ClassVar[Rest | None] = Rest("GET", "/debug/stack", "viewer", None, tag=TAG)
+    rest: ClassVar[Rest | None] = _view("/stack")
     task: Text
 
     def run(self, plc: SoftPlc) -> Stack:
@@ -207,7 +213,7 @@ class GetVariables(Operation[Variables], frozen=True):
     """The variables of a level of a call stack: its own, and those of the instance or program."""
 
     op: ClassVar[str] = "debug_variables"
-    rest: ClassVar[Rest | None] = Rest("GET", "/debug/stack/{frame}/variables", "viewer", None, tag=TAG)
+    rest: ClassVar[Rest | None] = _view("/stack/{frame}/variables")
     frame: FrameNumber
     task: Text
 
@@ -220,12 +226,10 @@ class WriteVariable(Operation[Variable], frozen=True):
     """Write a local variable of a level of a call stack; others are written by their path."""
 
     op: ClassVar[str] = "debug_write"
-    rest: ClassVar[Rest | None] = Rest(
+    rest: ClassVar[Rest | None] = _act(
         "POST",
-        "/debug/stack/{frame}/write",
-        "engineer",
+        "/stack/{frame}/write",
         lambda order: Fact("write", f"{order.task}: {order.name}", _written(order.value)),
-        tag=TAG,
     )
     frame: FrameNumber
     task: Text
@@ -241,13 +245,8 @@ class SetFlow(Operation[None], frozen=True):
     """Record which statements of these objects a cycle executes; an empty list ends that."""
 
     op: ClassVar[str] = "debug_set_flow"
-    rest: ClassVar[Rest | None] = Rest(
-        "PUT",
-        "/debug/flow",
-        "engineer",
-        lambda order: Fact("flow-control", new_value=_written(order.object_ids)),
-        tag=TAG,
-        variant=True,
+    rest: ClassVar[Rest | None] = _act(
+        "PUT", "/flow", lambda order: Fact("flow-control", new_value=_written(order.object_ids)), variant=True
     )
     object_ids: Annotated[list[Text], Meta(max_length=100)]
     holder: FlowHolder = ""
@@ -261,7 +260,7 @@ class GetFlow(Operation[FlowSnapshot], frozen=True):
     """The executed statements of an object under flow control, all of one cycle."""
 
     op: ClassVar[str] = "debug_flow"
-    rest: ClassVar[Rest | None] = Rest("GET", "/debug/flow", "viewer", None, tag=TAG)
+    rest: ClassVar[Rest | None] = _view("/flow")
     object_id: Text
     holder: FlowHolder = ""
 
