@@ -5,15 +5,15 @@ from __future__ import annotations
 import re
 import time
 from collections.abc import Callable, Iterator
-from typing import Any
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from .api import fetch
 from .conftest import Server
+from .instructions import open_with_instructions
 from .test_debugger import picture
-from .workbench import implementation, log_in, open_object, open_project, status_bar, text_of
+from .workbench import implementation, log_in, open_object, status_bar, text_of
 
 pytestmark = pytest.mark.e2e
 
@@ -38,35 +38,12 @@ ELSE
 END_IF
 Instructions();"""
 EXECUTED = [1, 2, 3, 4, 5, 8, 10]
-IL_DECLARATION = (
-    "PROGRAM Instructions\nVAR\n    xAlways : BOOL := TRUE;\n    nCount : INT;\n    nIdle : INT;\nEND_VAR"
-)
-IL_BODY = """        LD      xAlways
-        JMPC    onward
-        LD      nIdle
-        ST      nIdle
-onward: LD      nCount
-        ADD     1
-        ST      nCount
-        LD      0
-        ST      nCount"""
 
 
 @pytest.fixture
 def flow(page: Page, server: Server) -> Iterator[Page]:
     """A program in ST and one in IL, running, under flow control."""
-    path = f"/projects/{fetch(page, server, 'POST', '/projects', data={'name': PROJECT})['id']}"
-    objects = fetch(page, server, "GET", f"{path}/objects")
-    program = next(item for item in objects if item["name"] == "PLC_PRG")
-    texts = {"declaration": DECLARATION, "implementation": BODY}
-    body: dict[str, Any] = {"base_revision": program["revision"], "data": texts}
-    fetch(page, server, "PUT", f"{path}/objects/{program['id']}", data=body)
-    application = next(item for item in objects if item["kind"] == "application")
-    data = {"declaration": IL_DECLARATION, "implementation": IL_BODY, "language": "IL"}
-    made = {"parent_id": application["id"], "kind": "pou", "name": "Instructions", "data": data}
-    fetch(page, server, "POST", f"{path}/objects", data=made)
-    page.reload()
-    open_project(page, PROJECT)
+    open_with_instructions(page, server, PROJECT, DECLARATION, BODY)
     open_object(page, "PLC_PRG")
     log_in(page)
     switch(page)

@@ -9,9 +9,9 @@ from playwright.sync_api import Locator, Page, expect
 
 from .api import fetch
 from .conftest import Server
+from .instructions import open_with_instructions
 from .test_debugger import picture
-from .test_flow_control import IL_BODY, IL_DECLARATION
-from .workbench import log_in, open_object, open_project, status_bar
+from .workbench import log_in, open_object, status_bar
 
 pytestmark = pytest.mark.e2e
 
@@ -22,18 +22,7 @@ NUMBER, OPERATOR = 0, 1
 @pytest.fixture
 def table(page: Page, server: Server) -> Iterator[Locator]:
     """The table of a program in IL that runs."""
-    path = f"/projects/{fetch(page, server, 'POST', '/projects', data={'name': PROJECT})['id']}"
-    objects = fetch(page, server, "GET", f"{path}/objects")
-    program = next(item for item in objects if item["name"] == "PLC_PRG")
-    application = next(item for item in objects if item["kind"] == "application")
-    texts = {"declaration": "PROGRAM PLC_PRG", "implementation": "Instructions();"}
-    body = {"base_revision": program["revision"], "data": texts}
-    fetch(page, server, "PUT", f"{path}/objects/{program['id']}", data=body)
-    data = {"declaration": IL_DECLARATION, "implementation": IL_BODY, "language": "IL"}
-    made = {"parent_id": application["id"], "kind": "pou", "name": "Instructions", "data": data}
-    fetch(page, server, "POST", f"{path}/objects", data=made)
-    page.reload()
-    open_project(page, PROJECT)
+    open_with_instructions(page, server, PROJECT, "PROGRAM PLC_PRG", "Instructions();")
     open_object(page, "Instructions")
     log_in(page)
     yield page.get_by_role("grid", name="Instructions of Instructions")
