@@ -31,10 +31,8 @@ def open_with_instructions(page: Page, server: Server, name: str, declaration: s
     """A new project, open: PLC_PRG as given, and the program `Instructions`."""
     path = f"/projects/{fetch(page, server, 'POST', '/projects', data={'name': name})['id']}"
     objects = fetch(page, server, "GET", f"{path}/objects")
-    program, application = (
-        next(item for item in objects if test(item))
-        for test in (lambda item: item["name"] == "PLC_PRG", lambda item: item["kind"] == "application")
-    )
+    program = next(item for item in objects if item["name"] == "PLC_PRG")
+    application = next(item for item in objects if item["kind"] == "application")
     texts = {"declaration": declaration, "implementation": body}
     change: dict[str, Any] = {"base_revision": program["revision"], "data": texts}
     fetch(page, server, "PUT", f"{path}/objects/{program['id']}", data=change)
