@@ -31,6 +31,7 @@ export const TraceSide = memo(function TraceSide(props: TraceSideProps) {
   const t = useText();
   const run = (id: string) => void acts[id]?.run();
   const allowed = (id: string) => acts[id]?.enabled ?? true;
+  const adding = allowed('trace.addVariable');
   return (
     <aside className={styles.side}>
       <div className={styles.sideHead}>
@@ -53,7 +54,7 @@ export const TraceSide = memo(function TraceSide(props: TraceSideProps) {
         }}
         onDelete={() => allowed('trace.delete') === true && run('trace.delete')}
         onDrop={
-          allowed('trace.addVariable') === true
+          adding === true
             ? (record, variables) => scene.current?.change(withVariables(scene.current.data, record, variables))
             : undefined
         }
@@ -65,7 +66,7 @@ export const TraceSide = memo(function TraceSide(props: TraceSideProps) {
         <Button
           icon={Plus}
           variant="quiet"
-          disabledReason={allowed('trace.addVariable') === true ? null : reasonText(allowed('trace.addVariable'))}
+          disabledReason={adding === true ? null : reasonText(adding)}
           onClick={() => run('trace.addVariable')}
         >
           {t('trace.variable')}

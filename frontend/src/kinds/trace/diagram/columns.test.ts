@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import type { Curves } from '../data/curves';
 import { columnsOf, fillColumns, isDense } from './columns';
-import type { Plane } from './painter';
+import type { Plane } from './plane';
 
 /** Ten columns a nanosecond-unit wide; up is less. */
 const plane: Plane = { left: 5, top: 0, width: 10, height: 200, toX: (ns) => 5 + ns, toY: (value) => 100 - value };

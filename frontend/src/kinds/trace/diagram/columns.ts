@@ -1,6 +1,6 @@
 /** A curve of more points than pixels, as its extent in each column of pixels. Pure functions. */
 import type { Curve, Curves } from '../data/curves';
-import type { Plane } from './painter';
+import type { Plane } from './plane';
 
 /** From top to bottom by column of pixels; NaN where nothing is drawn. */
 export interface Columns {

@@ -1,7 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import type { GraphType } from '../configuration';
 import type { Curves } from '../data/curves';
-import { bands, outline, type CurveLook, type Plane } from './painter';
+import { bands, outline, type CurveLook } from './painter';
+import type { Plane } from './plane';
 
 /** One pixel for a nanosecond and a unit; up is less. */
 const plane: Plane = { left: 0, top: 0, width: 200, height: 200, toX: (ns) => ns, toY: (value) => 100 - value };

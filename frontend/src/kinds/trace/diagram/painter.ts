@@ -2,16 +2,7 @@
 import type { GraphType, Warning } from '../configuration';
 import type { Curve, Curves } from '../data/curves';
 import { columnsOf, fillColumns, isDense } from './columns';
-
-/** Where a curve is drawn, in pixels of the canvas. */
-export interface Plane {
-  left: number;
-  top: number;
-  width: number;
-  height: number;
-  toX: (ns: number) => number;
-  toY: (value: number) => number;
-}
+import type { Plane } from './plane';
 
 /** The part of `Path2D` that an outline needs. */
 export interface Pen {

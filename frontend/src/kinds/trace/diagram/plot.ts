@@ -4,7 +4,8 @@ import { niceStep, tickText, ticks, type Range } from '@/editors/plot/scales';
 import { timeLiteral } from '@/iec/duration';
 import type { Appearance, TimeAxis, ValueAxis } from '../configuration';
 import type { Curve, Curves } from '../data/curves';
-import { paintCurve, type CurveLook, type Plane } from './painter';
+import { paintCurve, type CurveLook } from './painter';
+import type { Plane } from './plane';
 import { momentText, timeGrain, timeStep, timeTicks } from './timeAxis';
 
 export interface Layer {
