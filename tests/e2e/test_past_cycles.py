@@ -260,6 +260,10 @@ def test_the_3d_view_of_a_saved_recording(page: Page, server: Server) -> None:
     bar.get_by_role("slider").press("Home")
     expect(bar.get_by_role("status")).to_contain_text("before the fault")
     _drawn_as_kept(page, _cycle(page), runtime)
+    shown = page.get_by_role("grid", name="Values at the exception")
+    expect(shown).to_contain_text(f"In cycle {_cycle(page)}")
+    loaded = shown.get_by_role("row").filter(has_text="PLC_PRG.iLoaded").get_by_role("gridcell").nth(2)
+    expect(loaded).to_have_text(_kept(page, _cycle(page), "PLC_PRG.iLoaded", runtime))
     expect(page.get_by_text("refused")).to_have_count(0)  # nothing asks a recording for what it has not
     folder = Path(os.environ.get("TAPPET_PICTURES", server.data))
     page.screenshot(path=folder / "past-scene-recording.png")

@@ -1,9 +1,12 @@
 import { Layers, LogIn, OctagonAlert } from 'lucide-react';
-import { useMemo, useState } from 'react';
+import { useQuery } from '@tanstack/react-query';
+import { useDeferredValue, useMemo, useState } from 'react';
+import { api } from '@/api/client';
 import type { CallFrame, RuntimeException } from '@/api/types';
 import { useText } from '@/i18n';
 import { HaltedStack } from '../debugger/HaltedStack';
 import { useDebugged } from '../debugger/useDebugged';
+import type { PastMoment } from '../onlineSession';
 import { runCommand } from '../run';
 import { Button } from '@/ui/Button';
 import { Empty } from '@/ui/Empty';
@@ -32,7 +35,7 @@ export default function CallStackPanel() {
   if (!exception && looked?.debugged && looked.debugged.state.halted.length > 0)
     return <HaltedStack runtimeId={looked.runtimeId} debugged={looked.debugged} />;
   if (!exception) return <Empty icon={Layers} title={t('exception.none')} text={t('exception.noneText')} />;
-  return <Report exception={exception} />;
+  return <Report exception={exception} runtimeId={session.runtimeId} past={session.past} />;
 }
 
 interface Line {
@@ -45,7 +48,33 @@ interface Value {
   value: string;
 }
 
-function Report({ exception }: { exception: RuntimeException }) {
+interface ReportProps {
+  exception: RuntimeException;
+  runtimeId: string;
+  past: PastMoment | null;
+}
+
+/** Values of a past cycle by their names; nothing while the present is shown. */
+function usePastValues(runtimeId: string, cycle: number | null, names: readonly string[]) {
+  const query = useQuery({
+    queryKey: ['past values', runtimeId, cycle, names],
+    queryFn: async ({ signal }) => {
+      const { values } = await api.post('/api/v1/runtimes/{runtime_id}/flight/read', {
+        params: { path: { runtime_id: runtimeId } },
+        body: { cycle: cycle!, expressions: [...names] },
+        signal,
+      });
+      return Object.fromEntries(names.map((name, at) => [name, values[at]?.literal ?? null]));
+    },
+    enabled: cycle !== null && names.length > 0,
+    placeholderData: (before) => before,
+    gcTime: 0,
+    retry: false,
+  });
+  return cycle === null ? undefined : query.data;
+}
+
+function Report({ exception, runtimeId, past }: ReportProps) {
   const t = useText();
   const [selected, setSelected] = useState<string | null>('0');
   const [chosen, setChosen] = useState<string | null>(null);
@@ -57,6 +86,9 @@ function Report({ exception }: { exception: RuntimeException }) {
     () => Object.entries(exception.values).map(([name, value]): Value => ({ name, value })),
     [exception.values],
   );
+  const cycle = useDeferredValue(past?.cycle ?? null);
+  const names = useMemo(() => Object.keys(exception.values), [exception.values]);
+  const then = usePastValues(runtimeId, cycle, names);
   const columns = useMemo(
     (): Column<Line>[] => [
       {
@@ -101,8 +133,20 @@ function Report({ exception }: { exception: RuntimeException }) {
         hint: ({ value }) => value,
         cell: ({ value }) => <span className={styles.code}>{value}</span>,
       },
+      ...(cycle === null
+        ? []
+        : [
+            {
+              id: 'past',
+              title: t('exception.valueInCycle', { cycle }),
+              width: 140,
+              grow: true,
+              hint: ({ name }: Value) => then?.[name] ?? '',
+              cell: ({ name }: Value) => <span className={styles.code}>{then?.[name] ?? '–'}</span>,
+            },
+          ]),
     ],
-    [t],
+    [t, cycle, then],
   );
   const text = exceptionText(exception);
   return (
