@@ -1,3 +1,4 @@
+import { MONITORING_MS } from '@/workbench/online/poll';
 import { useCallback, useEffect, useRef, useState, useSyncExternalStore } from 'react';
 import type { ImagePlace } from '@/api/types';
 import { useOnline, type OnlineSession } from '@/workbench/onlineSession';
@@ -39,7 +40,7 @@ export function useLiveItem(runtimeId: string | null, expression: string): Subsc
 }
 
 /** Watches expressions while the component is there; what is watched may change with every drawing. */
-export function useWatched(runtimeId: string | null, expressions: readonly string[], intervalMs = 100): void {
+export function useWatched(runtimeId: string | null, expressions: readonly string[], intervalMs = MONITORING_MS): void {
   const handle = useRef<GroupHandle | null>(null);
   const wanted = useRef(expressions);
   useEffect(() => {

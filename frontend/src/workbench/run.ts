@@ -66,7 +66,7 @@ function onKeyDown(event: KeyboardEvent): void {
   const { commands } = useRegistry.getState();
   const context = commandContext();
   const shown = (command: Command) =>
-    (command.visible?.(context) ?? true) && !(command.yieldsKeys && (command.enabled?.(context) ?? true) !== true);
+    (command.visible?.(context) ?? true) && !(command.yieldsKeys && refusal(command, context) !== null);
   const command = findByKey(commands.values(), event, scopeOf(event.target), shown);
   if (command) {
     event.preventDefault();

@@ -26,6 +26,8 @@ const commands: Command[] = [
       title: 'st.command.inputAssistant',
       icon: WandSparkles,
       keys: ['F2'],
+      // Fields with a list of their own (the event of a task) take it elsewhere.
+      yieldsKeys: true,
       ...OF_EDITOR,
     },
     {

@@ -13,7 +13,7 @@ import { ContextMenu } from '@/ui/Menu';
 import { Panel, PanelRest } from '@/ui/Panel';
 import { Table } from '@/ui/Table';
 import type { Column } from '@/ui/table';
-import { useTasks } from './poll';
+import { MONITORING_MS, useTasks } from './poll';
 import styles from './TaskTable.module.css';
 import { countText, microsNumber } from './times';
 
@@ -29,7 +29,7 @@ interface TaskTableProps {
 /** Statistics of the tasks as CODESYS lists them (TASK-50 to TASK-59); reset by button or context menu. */
 export function TaskTable({ runtimeId, selected, onSelected }: TaskTableProps) {
   const t = useText();
-  const { data, error, refetch } = useTasks(runtimeId);
+  const { data, error, refetch } = useTasks(runtimeId, MONITORING_MS);
   const operator = atLeast(commandContext().role, 'operator') ? null : t('reason.operator');
 
   const columns = useMemo((): Column<TaskState>[] => {

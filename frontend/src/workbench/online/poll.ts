@@ -8,6 +8,8 @@ import { connectionLost, isRecording, runtimePolled } from '../onlineSession';
 
 const STATE_MS = 2000;
 const TASKS_MS = 1000;
+/** How often values of variables come where nothing else is asked for. */
+export const MONITORING_MS = 100;
 
 /** Follows a runtime's state; the online socket is quicker, this also works without it. */
 export function useRuntimeState(runtimeId: string | null): void {
@@ -25,14 +27,14 @@ export function useRuntimeState(runtimeId: string | null): void {
   }, [runtimeId, error]);
 }
 
-/** Statistics of the tasks, once a second while somebody looks. */
-export function useTasks(runtimeId: string | null): UseQueryResult<TaskState[]> {
+/** Statistics of the tasks while somebody looks: once a second, or as often as values come (TASK-58). */
+export function useTasks(runtimeId: string | null, everyMs = TASKS_MS): UseQueryResult<TaskState[]> {
   const path = { runtime_id: runtimeId ?? '' };
   return useQuery({
-    queryKey: keys.tasks(runtimeId ?? ''),
+    queryKey: [...keys.tasks(runtimeId ?? ''), everyMs],
     queryFn: () => api.get('/api/v1/runtimes/{runtime_id}/tasks', { params: { path } }),
     enabled: runtimeId !== null && !isRecording(runtimeId),
-    refetchInterval: TASKS_MS,
+    refetchInterval: everyMs,
     retry: false,
   });
 }
