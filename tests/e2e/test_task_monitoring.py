@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Request, expect
 
 from .api import change, example, stored
 from .conftest import Server
@@ -59,3 +59,44 @@ def test_a_function_is_coupled_to_an_event_and_its_calls_are_counted(page: Page,
     finally:
         page.keyboard.press("Control+F8")
         change(page, server, project, "Task Configuration", **before)
+
+
+def test_times_are_asked_for_as_often_as_values(page: Page) -> None:
+    """TASK-58: the times of the tasks are asked for several times between two questions for the load."""
+    open_project(page)
+    log_in(page)
+    asked: list[str] = []
+
+    def note(request: Request) -> None:
+        if (name := request.url.rpartition("/")[2].partition("?")[0]) in ("tasks", "load"):
+            asked.append(name)
+
+    page.on("request", note)
+    open_object(page, "Task Configuration")
+    expect(page.get_by_role("grid", name="Tasks").get_by_role("row").nth(1)).to_be_visible()
+    while " tasks tasks tasks tasks " not in f" {' '.join(asked)} " and asked.count("load") < 30:
+        page.wait_for_event("request")
+    page.remove_listener("request", note)
+    assert asked.count("load") < 30
+
+
+def test_the_event_of_a_task_is_chosen_from_the_global_variables(page: Page) -> None:
+    """TASK-18: F2 lists the variables. TASK-06, TASK-07: no tab of parameters, which no device describes."""
+    open_project(page)
+    open_object(page, "AlarmTask")
+    page.get_by_role("combobox", name="Type").last.click()
+    page.get_by_role("option", name="Event", exact=True).click()
+    field = page.get_by_label("Event", exact=True)
+    field.click()
+    page.keyboard.press("F2")
+    assistant = page.get_by_role("dialog")
+    expect(assistant).to_be_visible()
+    page.keyboard.type("xStartButton")
+    assistant.get_by_text("xStartButton").first.dblclick()
+    if assistant.count():
+        page.keyboard.press("Enter")
+    expect(field).to_have_value(re.compile("xStartButton"))
+    page.get_by_role("button", name="Choose a variable").click()
+    expect(page.get_by_role("dialog")).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("tab", name=re.compile("Parameter"))).to_have_count(0)
