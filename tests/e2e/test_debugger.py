@@ -112,9 +112,7 @@ def test_a_variable_halts_the_program_when_it_changes(debugged: Page) -> None:
     expect(dialog.get_by_label("Variable")).to_have_value("PersistentVars.udiOperatingTime")
     dialog.get_by_role("button", name="Apply").click()
     expect(status_bar(page)).to_contain_text("halted", timeout=60_000)
-    expect(
-        page.get_by_text("'PersistentVars.udiOperatingTime' has changed")
-    ).to_be_visible()
+    expect(page.get_by_text("'PersistentVars.udiOperatingTime' has changed")).to_be_visible()
     show_panel(page, "Breakpoints")
     page.get_by_role("grid", name="Breakpoints").get_by_role("row").filter(
         has_text="udiOperatingTime"
