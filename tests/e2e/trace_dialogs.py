@@ -62,7 +62,7 @@ def traces(ui: Ui, server: Server) -> Iterator[str]:
         choose("trace.export")
         yield "trace.export"
         page.keyboard.press("Escape")
-        choose("trace.longTerm")
+        ui.button("trace.longTerm", ui.panel()).first.click()
         yield "trace.longTermTitle"
         page.keyboard.press("Escape")
         choose("trace.snapshot")
