@@ -16,6 +16,7 @@ const machine = (state: RuntimeState['state']) =>
 const found = (relation: LoginAnswer['relation'], loaded_project: string | null = null): LoginAnswer => ({
   relation,
   reasons: [],
+  persistent: [],
   changes: [],
   changes_omitted: 0,
   reserve: null,
