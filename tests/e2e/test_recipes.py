@@ -87,9 +87,9 @@ def test_variables_and_recipes_are_added(page: Page, server: Server) -> None:
     dialog = page.get_by_role("dialog")
     dialog.get_by_role("textbox").fill("plc step")
     rows = dialog.get_by_role("row").filter(has_text="aStep")
-    expect(rows).to_have_count(3)
-    rows.first.click()
-    rows.nth(2).click(modifiers=["Control"])
+    expect(rows).to_have_count(4)  # the array as a whole, too
+    rows.filter(has_text="aStep[1]").click()
+    rows.filter(has_text="aStep[3]").click(modifiers=["Control"])
     with objects_stored(page):
         dialog.get_by_role("button", name="Add", exact=True).click()
     expect(cell(page, "PLC_PRG.aStep[3]", "Type")).to_have_text("INT")

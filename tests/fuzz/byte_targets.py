@@ -109,7 +109,7 @@ def flight(data: bytes) -> None:
 
 def _flight_file(content: bytes) -> str:
     packed = zlib.compress(content)
-    head = f"TAPPET-FLIGHT 1 sha256={hashlib.sha256(packed).hexdigest()}"
+    head = f"TAPPET-FLIGHT 2 sha256={hashlib.sha256(packed).hexdigest()}"
     return f"{head}\n{base64.b64encode(packed).decode()}\n"
 
 

@@ -94,10 +94,14 @@ def test_what_is_too_long_loses_its_oldest_cycles(recorded: tuple[FlightRecordin
     del images
 
 
+DONE = [[0, 2, 2, 0, 0]]
+"""The one task has run one cycle."""
+
+
 def _file(content: object) -> str:
     packed = zlib.compress(msgspec.msgpack.encode(content))
     digest = hashlib.sha256(packed).hexdigest()
-    return f"TAPPET-FLIGHT 1 sha256={digest}\n{base64.b64encode(packed).decode()}\n"
+    return f"TAPPET-FLIGHT 2 sha256={digest}\n{base64.b64encode(packed).decode()}\n"
 
 
 @pytest.mark.parametrize(
@@ -111,9 +115,16 @@ def _file(content: object) -> str:
         ({"writes": [{"task": 7, "cycle": 1, "values": []}]}, "no task number 7"),
         ({"writes": [{"task": 0, "cycle": 1, "values": [[1 << 27, None, b"abc"]]}]}, "outside its image"),
         ({"forces": [{"cycle": 1, "values": [[5, 9, b"a"]]}]}, "damaged"),
-        ({"cycles": [[2, 1, 1, b""], [2, 2, 2, b""]]}, "cycle 2 of the recording comes behind cycle 2"),
-        ({"cycles": [[2, 1, 1, b"x" * 80]]}, "cycle 2 of the recording is damaged"),
-        ({"cycles": [[2, 1, 1, b"\0\0\0\0\x40\0\0"]]}, "cycle 2 of the recording is damaged"),
+        ({"cycles": [[2, 1, 1, b"", DONE], [2, 2, 2, b"", DONE]]}, "comes behind cycle 2"),
+        ({"cycles": [[2, 1, 1, b"x" * 80, DONE]]}, "cycle 2 of the recording is damaged"),
+        ({"cycles": [[2, 1, 1, b"\0\0\0\0\x40\0\0", DONE]]}, "cycle 2 of the recording is damaged"),
+        ({"cycles": [[2, 1, 1, b"", []]]}, "cycle 2 of the recording has 0 tasks of 1"),
+        (
+            {"cycles": [[2, 1, 1, b"", DONE], [3, 2, 2, b"", [[0, 0, 2, 2, 2]]]]},
+            "has run -1 cycles up to cycle 3",
+        ),
+        ({"cycles": [[2, 1, 1, b"", DONE], [3, 2, 2, b"", [[0, 1 << 40, 2, 2, 2]]]]}, "up to cycle 3"),
+        ({"cycles": [[2, 1, 1, b"", [[0, -2, 2, 2, 2]]]]}, "damaged"),
         ({"period": 0}, "damaged"),
         ({"application": 7}, "damaged"),
     ],
@@ -139,10 +150,10 @@ def test_code_that_does_not_belong_to_it_is_refused(recorded: tuple[FlightRecord
     [
         ("", "no recording"),
         ("PROGRAM PLC_PRG\nEND_PROGRAM\n", "no recording"),
-        ("TAPPET-FLIGHT 2 sha256=" + "0" * 64 + "\n", "version 2"),
-        ("TAPPET-FLIGHT 1 sha256=" + "0" * 64 + "\nAAAA\n", "digest"),
-        ("TAPPET-FLIGHT 1 sha256=" + "0" * 64 + "\nÄAAA\n", "damaged"),
-        ("TAPPET-FLIGHT 1 sha256=" + hashlib.sha256(b"").hexdigest() + "\n", "cut off"),
+        ("TAPPET-FLIGHT 1 sha256=" + "0" * 64 + "\n", "version 1"),
+        ("TAPPET-FLIGHT 2 sha256=" + "0" * 64 + "\nAAAA\n", "digest"),
+        ("TAPPET-FLIGHT 2 sha256=" + "0" * 64 + "\nÄAAA\n", "damaged"),
+        ("TAPPET-FLIGHT 2 sha256=" + hashlib.sha256(b"").hexdigest() + "\n", "cut off"),
     ],
 )
 def test_foreign_text_is_refused(text: str, says: str) -> None:

@@ -297,28 +297,71 @@ def test_a_real_run_ends_in_its_fault_again() -> None:
     assert played.values == {"PLC_PRG.recipe": "0"}
 
 
-def test_a_difference_beside_other_tasks_of_real_time_says_so() -> None:
-    """When their cycles came is not recorded; on virtual time it follows from intervals and priorities."""
-    text = """
-VAR_GLOBAL a, b : DINT; END_VAR
-PROGRAM Fast a := a + 1; END_PROGRAM
-PROGRAM Slow b := a; END_PROGRAM
+BESIDE = """
+VAR_GLOBAL a, b, order : DINT; END_VAR
+PROGRAM Bus a := a + 1; order := order * 3 + b; END_PROGRAM
+PROGRAM Other b := b + a; order := order * 5 + 1; END_PROGRAM
 """
-    slow = Task("Slow", interval_ns=30 * MS, priority=5, programs=("Slow",))
-    fast = Task("Fast", interval_ns=10 * MS, priority=3, programs=("Fast",))
-    for tasks, virtual, told in (
-        ((slow, fast), False, True),
-        ((slow, fast), True, False),
-        ((fast,), False, False),
-    ):
-        with LocalRuntime(build(text, tasks)) as runtime:
-            runtime.run(20)
-            runtime.write("a", 1000)
-            runtime.run(5)
-            recording = msgspec.structs.replace(runtime.plc.flight_recording(), virtual=virtual)
-        assert replay(recording).notes == ()
-        played = replay(msgspec.structs.replace(recording, writes=[]))
-        assert played.difference is not None
-        assert played.difference.cycle == 21
-        notes = [note for note in played.notes if "in which order is not recorded: from cycle 21" in note]
-        assert len(notes) == told, (tasks, virtual)
+BUS = Task("Bus", interval_ns=10 * MS, priority=3, programs=("Bus",))
+
+
+def test_tasks_of_events_run_where_they_ran() -> None:
+    """What raised them is not recorded: neither the inputs nor a grid of time say when they came."""
+    task = Task("Signal", "external", 0, 1, event="SIGUSR1", programs=("Other",))
+    with LocalRuntime(build(BESIDE, (BUS, task))) as runtime:
+        for times in (3, 1, 0, 2, 4, 1, 1, 0, 5):
+            runtime.plc.happen("SIGUSR1")
+            runtime.run(cycles=max(times, 1))
+        assert runtime.read("b") != 0
+        recording = read_recording(write_recording(runtime.plc.flight_recording()))
+        values = {name: str(runtime.read(name)) for name in ("a", "b", "order")}
+    played = replay(recording, show=list(values))
+    assert (played.difference, played.notes, played.values) == (None, (), values)
+
+
+@pytest.mark.parametrize("interval", [3, 7, 10, 25])
+def test_other_tasks_of_a_real_run_come_where_they_came(interval: int) -> None:
+    """Each at its own time, never in the midst of another: one processor, and cycles that take no time."""
+    other = Task("Other", interval_ns=interval * MS, priority=5, programs=("Other",))
+    with LocalRuntime(build(BESIDE, (BUS, other)), virtual=False) as runtime:
+        due = time.monotonic() + 20
+        while int(str(runtime.read("a"))) < 60 and time.monotonic() < due:
+            time.sleep(0.01)
+        runtime.stop()
+        recording = read_recording(write_recording(runtime.plc.flight_recording()))
+        values = {name: str(runtime.read(name)) for name in ("a", "b", "order")}
+    beside = [one.cycle for one in recording.cycles[1:] if one.tasks[1].beside]
+    played = replay(recording, show=list(values))
+    if beside:  # the machine was busy: two cycles met
+        assert played.difference is None or played.difference.cycle >= beside[0]
+    else:
+        assert (played.difference, played.notes, played.values) == (None, (), values)
+
+
+def test_a_difference_behind_tasks_that_ran_at_the_same_time_says_so() -> None:
+    slow = Task("Slow", interval_ns=30 * MS, priority=5, programs=("Other",))
+    with LocalRuntime(build(BESIDE, (BUS, slow))) as runtime:
+        runtime.run(20)
+        runtime.write("a", 1000)
+        runtime.run(5)
+        recording = runtime.plc.flight_recording()
+    assert (replay(recording).difference, replay(recording).notes) == (None, ())
+    lost = msgspec.structs.replace(recording, writes=[])
+    alone = replay(lost)
+    assert alone.difference is not None
+    assert (alone.difference.cycle, alone.notes) == (21, ())
+    for cycle, told in ((12, True), (24, False)):
+        cycles = [
+            msgspec.structs.replace(
+                one,
+                tasks=[one.tasks[0], msgspec.structs.replace(one.tasks[1], before=one.tasks[1].after + 1)],
+            )
+            if one.cycle == cycle
+            else one
+            for one in recording.cycles
+        ]
+        played = replay(msgspec.structs.replace(lost, cycles=cycles))
+        found = [
+            note for note in played.notes if f"from cycle {cycle} on, tasks ran at the same time" in note
+        ]
+        assert len(found) == told

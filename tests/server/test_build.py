@@ -130,6 +130,7 @@ def test_relations_from_foreign_to_online_change(
         "reasons": [],
         "changes": [],
         "changes_omitted": 0,
+        "persistent": [],
         "reserve": None,
         "loaded_project": None,
     }

@@ -50,8 +50,8 @@ ROOMS = {
 LANGUAGE = {"coding_settings", "diagnostic_translations", "diagnostics", "nearest", "reference", "source"}
 """The tables of messages and of help, and what reports of other processes consist of."""
 CODE = {
-    "converted_values", "display", "expressions", "literals", "package", "symbol_map", "symbol_types",
-    "values", "variable_changes",
+    "converted_values", "display", "expressions", "faults", "literals", "package", "symbol_map",
+    "symbol_types", "values", "variable_changes",
 }  # fmt: skip
 """How a package and the values in a running one are read."""
 MOTION = {"axis_measurement", "loops"}

@@ -99,7 +99,7 @@ def test_what_is_no_recording_is_refused(
         ("", "first line"),
         ("PROGRAM é", "no recording"),
         (recording[:-9], "damaged"),
-        (recording.replace("FLIGHT 1", "FLIGHT 9"), "version 9"),
+        (recording.replace("FLIGHT 2", "FLIGHT 9"), "version 9"),
     ):
         answer = _upload(admin, press, text)
         assert answer.status_code == 422, answer.text

@@ -152,7 +152,7 @@ class LoadedApplication(ApplicationCode):
             task["eventLast"] = 0
             task["pending"] = 0
             task["raisedLast"] = task["raised"]
-            task["programCycles"] = 0
+            task["programCycles"] = task["progress"] = 0
             self.contexts.watchdog(task)["overruns"] = 0
             self.contexts.clear_statistics(task)
         self.contexts.application["pFaulted"] = 0

@@ -17,6 +17,7 @@ from tappet.runtime.errors import PlcError
 from tappet.runtime.executive.records import Record
 from tappet.runtime.flight_deltas import BLOCK, ENTRY_SIZE, Entry, FlightError, rebuild, unpack_entries
 from tappet.runtime.flight_holds import ANYBODY, FlightHolds
+from tappet.runtime.flight_tasks import ROW_SIZE, TaskProgress, unpack_tasks
 from tappet.runtime.image import Image
 from tappet.runtime.logbook import Logbook
 from tappet.runtime.posix import map_memory, pages, read_memory
@@ -100,23 +101,26 @@ class FlightRecorder:
         image: Image,
         interval_ns: int,
         *,
+        tasks: int,
         faulted: Callable[[], bool],
         touch: bool,
     ) -> None:
-        """`interval_ns` of the sampling task, 0 when it has none; `touch` takes the memory from the system
-        now, so that no cycle waits for a page. OSError when there is no memory."""
+        """`interval_ns` of the sampling task, 0 when it has none; `tasks`: how many there are; `touch` takes
+        the memory from the system now, so that no cycle waits for a page. OSError when there is no memory."""
         self.settings = settings
         self._executive = executive
         self._image = image
         self._faulted = faulted
         self._limit_ns = int(settings.seconds * 1e9)
-        most = settings.memory // 4 // ENTRY_SIZE
+        self._row = ROW_SIZE * tasks
+        most = settings.memory // 4 // (ENTRY_SIZE + self._row)
         step = interval_ns * settings.divider
         self.capacity = min(most, self._limit_ns // step + _MARGIN) if step else most
         entries = -(-self.capacity * ENTRY_SIZE // _CHUNK) * _CHUNK
-        ring = (settings.memory - entries) // _CHUNK * _CHUNK
+        rows = pages((self.capacity + 1) * self._row)
+        ring = (settings.memory - entries - rows) // _CHUNK * _CHUNK
         layout = executive.layouts["FLIGHT_RECORDER"]
-        self._memory = map_memory(pages(layout.size) + entries + ring)
+        self._memory = map_memory(pages(layout.size) + entries + ring + rows)
         try:
             self._shadow = map_memory(pages(image.capacity))
         except OSError:
@@ -130,6 +134,8 @@ class FlightRecorder:
         record["pEntries"] = self._memory.address + pages(layout.size)
         record["ringSize"] = self._ring_size = ring
         record["pRing"] = self._ring = record["pEntries"] + entries
+        record["taskCount"] = tasks
+        record["pTasks"] = self._rows = self._ring + ring
         record["divider"] = settings.divider
         record["ageLimit"] = self._limit_ns
         record["pImage"] = image.address
@@ -253,13 +259,13 @@ class FlightRecorder:
         """The image at the newest entry; only while no task runs."""
         return read_memory(self._shadow.address, self._image.size)
 
-    def export(self) -> tuple[bytes, list[tuple[Entry, bytes]]]:
-        """The image at the newest entry, and all entries with their bytes, oldest first. An entry that was
-        dropped meanwhile is missing, as are those before it."""
+    def export(self) -> tuple[bytes, list[tuple[Entry, bytes, list[TaskProgress]]]]:
+        """The image at the newest entry, and all entries with their bytes and how far the tasks were, oldest
+        first. An entry that was dropped meanwhile is missing, as are those before it."""
         entries, base = self._steady(lambda: (self._entries(), read_memory(self._shadow.address, self._size)))
-        found = [(entry, self._bytes(entry)) for entry in entries]
+        found = [(entry, self._bytes(entry), self._tasks(entry)) for entry in entries]
         first = self._executive.load(self.record.place("first"))
-        return base, [(entry, data) for entry, data in found if entry.number >= first]
+        return base, [one for one in found if one[0].number >= first]
 
     def rebuild(self, capture: Capture) -> bytes:
         """The image out of a capture; may run beside all other calls."""
@@ -295,6 +301,10 @@ class FlightRecorder:
                 f"the flight recorder's entry of cycle {entry.cycle} is damaged: {entry.size} bytes at {at}"
             )
         return read_memory(self._ring + at, entry.size)
+
+    def _tasks(self, entry: Entry) -> list[TaskProgress]:
+        at = self._rows + entry.number % self.capacity * self._row
+        return unpack_tasks(read_memory(at, self._row))
 
     def _steady(self, copy: Callable[[], T]) -> T:
         """What `copy` returns, called while no entry is being written. When the task is too fast for that, it
@@ -347,6 +357,7 @@ def make_flight(application: LoadedApplication, settings: FlightSettings) -> Fli
             settings,
             application.image,
             application.package.tasks[bus].interval_ns,
+            tasks=len(application.package.tasks),
             faulted=lambda: application.tasks.state == FAULTED,
             touch=not application.virtual,
         )

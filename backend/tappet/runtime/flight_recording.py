@@ -1,7 +1,7 @@
 """A recording of the flight recorder as a file: past cycles of an application, and all it takes to show and
 replay them elsewhere.
 
-The file is text, so that a project folder and a browser can hold it: a line `TAPPET-FLIGHT 1 sha256=...`,
+The file is text, so that a project folder and a browser can hold it: a line `TAPPET-FLIGHT 2 sha256=...`,
 then the digested bytes in base64: MessagePack of `FlightRecording`, deflated. `read_recording` checks foreign
 files completely before anything is made of them.
 """
@@ -22,13 +22,16 @@ from tappet.codegen.package import MAX_PACKAGE, CodePackage, PackageError
 from tappet.iec.memory import MAX_IMAGE
 from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.flight_deltas import BLOCK, FlightError, delta_runs
+from tappet.runtime.flight_tasks import TaskProgress
 
-VERSION = 1
+VERSION = 2
 ENDING = "flight"
 MAX_FILE = 16 * 1024 * 1024
 """Characters of a file: a text of a project object holds no more (project.data.MAX_TEXT)."""
 MAX_CONTENT = 512 << 20
 """Bytes of what is deflated in it."""
+MOST_BETWEEN = 100_000
+"""Cycles of a task between two of the bus cycle task."""
 _HEAD = re.compile(r"TAPPET-FLIGHT (\d{1,4}) sha256=([0-9a-f]{64})\n")
 _COLUMNS = 76
 _SLACK = 0.94
@@ -52,15 +55,15 @@ class RecordedCycle(Struct, frozen=True, array_like=True):
     """When it was to begin, by the clock of the application (`start_ns` is its zero)."""
     delta: bytes
     """What the changed blocks held before (`flight_deltas`)."""
+    tasks: list[TaskProgress]
+    """All tasks; the bus cycle task has just ended its programs."""
 
 
 class RecordedTask(Struct, frozen=True):
     """Where a task stood when the recording was taken."""
 
     name: str
-    cycle: Natural
-    program_cycles: Natural
-    due_ns: int
+    end: TaskProgress
 
 
 class RecordedValue(Struct, frozen=True, array_like=True):
@@ -187,6 +190,15 @@ def read_recording(text: str) -> FlightRecording:
     return recording
 
 
+def _check_order(cycle: int, before: list[TaskProgress], behind: list[TaskProgress]) -> None:
+    """A task goes on, and not endlessly between two cycles of the bus cycle task."""
+    for was, now in zip(before, behind, strict=True):
+        if not 0 <= now.completed - was.completed <= MOST_BETWEEN:
+            raise RecordingError(
+                f"a task of the recording has run {now.completed - was.completed} cycles up to cycle {cycle}"
+            )
+
+
 def _check(recording: FlightRecording) -> None:
     """What the types do not say. Raises RecordingError."""
     size = -(-recording.image_size // BLOCK) * BLOCK
@@ -196,7 +208,9 @@ def _check(recording: FlightRecording) -> None:
         raise RecordingError("the recording holds no cycle")
     if len(recording.package) > MAX_PACKAGE:
         raise RecordingError("the recording's code is too large")
-    before = -1
+    if recording.bus is not None and recording.bus >= len(recording.tasks):
+        raise RecordingError(f"the recording has no task number {recording.bus}")
+    before, tasks = -1, recording.cycles[0].tasks
     for one in recording.cycles:
         if one.cycle <= before:
             raise RecordingError(f"cycle {one.cycle} of the recording comes behind cycle {before}")
@@ -205,8 +219,16 @@ def _check(recording: FlightRecording) -> None:
             delta_runs(one.delta, size)
         except FlightError as error:
             raise RecordingError(f"cycle {one.cycle} of the recording is damaged: {error}") from error
-    if recording.bus is not None and recording.bus >= len(recording.tasks):
-        raise RecordingError(f"the recording has no task number {recording.bus}")
+        if len(one.tasks) != len(recording.tasks):
+            raise RecordingError(
+                f"cycle {one.cycle} of the recording has {len(one.tasks)} tasks of {len(recording.tasks)}"
+            )
+        _check_order(one.cycle, tasks, one.tasks)
+        tasks = one.tasks
+    if recording.bus is not None:
+        end = [task.end for task in recording.tasks]
+        if end[recording.bus].completed == tasks[recording.bus].completed:
+            _check_order(before, tasks, end)
     for write in recording.writes:
         if write.task >= len(recording.tasks):
             raise RecordingError(f"the recording has no task number {write.task}")

@@ -8,6 +8,7 @@ from tappet.runtime.application import LoadedApplication
 from tappet.runtime.contexts import FAULTED
 from tappet.runtime.errors import PlcError
 from tappet.runtime.exception_report import ExceptionReport
+from tappet.runtime.executive.records import Record
 from tappet.runtime.flight_recording import (
     FlightRecording,
     RecordedCycle,
@@ -16,6 +17,7 @@ from tappet.runtime.flight_recording import (
     RecordedValue,
     RecordedWrite,
 )
+from tappet.runtime.flight_tasks import TaskProgress
 from tappet.runtime.forces import PlacedValue
 
 
@@ -44,10 +46,10 @@ def take_recording(application: LoadedApplication, report: ExceptionReport | Non
         image_address=application.image.address,
         image_size=application.image.size,
         base=base,
-        cycles=[RecordedCycle(e.cycle, e.timestamp_ns, e.due_ns, data) for e, data in entries],
+        cycles=[RecordedCycle(e.cycle, e.timestamp_ns, e.due_ns, data, tasks) for e, data, tasks in entries],
         bus=bus,
         tasks=[
-            RecordedTask(spec.name, task["cycle"], task["programCycles"], task["due"])
+            RecordedTask(spec.name, _progress(task))
             for spec, task in zip(package.tasks, contexts.tasks, strict=True)
         ],
         start_ns=clock["startNs"],
@@ -63,6 +65,11 @@ def take_recording(application: LoadedApplication, report: ExceptionReport | Non
         forces=_forces(application, first),
         exception=report if application.tasks.state == FAULTED else None,
     )
+
+
+def _progress(task: Record) -> TaskProgress:
+    now = task["progress"]
+    return TaskProgress(now, now, task["cycle"], task["cycleStart"], task["requested"])
 
 
 def _forces(application: LoadedApplication, first: int) -> list[RecordedForces]:

@@ -5,9 +5,10 @@ inputs, writes, forces and the time that it had. With equal code the images are 
 other code (today's, as an online change of the recorded one) the variables that both have are compared, but
 the end counts: whether it fails.
 
-Not recorded, and so not replayed: memory of `__NEW`, files, the moments inside a cycle at which a program
-reads the clock, and when other tasks than the bus cycle task ran between two cycles of that one; they are
-taken by their intervals and priorities. docs/flight-recorder.md tells users.
+Other tasks run where they ran: with each cycle of the bus cycle task it is recorded how many cycles of them
+had ended. Not recorded, and so not replayed: memory of `__NEW`, files, the moments inside a cycle at which a
+program reads the clock, and what tasks that ran at the same time have seen of each other; the one that ended
+first runs first. docs/flight-recorder.md tells users.
 """
 
 from __future__ import annotations
@@ -22,16 +23,16 @@ from tappet.iec.memory import MAX_IMAGE
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.errors import PlcError
 from tappet.runtime.exception_report import ExceptionReport
-from tappet.runtime.executive.records import Record
 from tappet.runtime.flight import LEAST_MEMORY, FlightSettings
 from tappet.runtime.flight_past import RecordedPast
 from tappet.runtime.flight_recording import (
     FlightRecording,
     RecordedCycle,
-    RecordedTask,
     RecordedValue,
+    RecordedWrite,
     RecordingError,
 )
+from tappet.runtime.flight_tasks import TaskProgress
 from tappet.runtime.forces import NOBODY, PlacedValue, ValueList
 from tappet.runtime.local import LocalRuntime
 from tappet.runtime.online_change import OnlineChangeError
@@ -44,7 +45,9 @@ from tappet.runtime.replay_comparison import (
     Difference,
     SameProgram,
 )
+from tappet.runtime.tasks import EVENT_DRIVEN
 
+_NEVER = 1 << 62
 _ENTRIES = 6
 """Images of which the flight recorder of a replay has room: it tells what was at the end of a cycle of the
 bus cycle task, though other tasks come behind it."""
@@ -111,6 +114,20 @@ def replay(
         return _Replay(recording, package, runtime).run(code, show, until)
 
 
+_COUNTERS = ("cycle", "programCycles", "progress", "due", "pending")
+
+
+@dataclass(frozen=True, slots=True)
+class _Moment:
+    """What a cycle changes of a replay, before it."""
+
+    image: bytes
+    now: int
+    tasks: list[dict[str, int]]
+    written: list[RecordedWrite]
+    done: list[int]
+
+
 class _Replay:
     def __init__(self, recording: FlightRecording, package: CodePackage, runtime: LocalRuntime) -> None:
         self.recording = recording
@@ -120,6 +137,12 @@ class _Replay:
         self.bus = recording.bus
         if [task.name for task in recording.tasks] != [task.name for task in package.tasks]:
             raise RecordingError("the tasks of the recording are not those of its code")
+        alone = (not self._met(one) for one in recording.cycles)
+        self.skipped = next((number for number, found in enumerate(alone) if found), 0)
+        """A replay begins behind a cycle that met none of another task: its image is of cycles that ended."""
+        self.cycles = recording.cycles[self.skipped :]
+        self.done = [task.completed for task in self.cycles[0].tasks]
+        """Cycles that have been run of each task, of all since its initialisation."""
         self.written = sorted(recording.writes, key=lambda write: write.cycle)
         self.forces = list(recording.forces)
         self.pointers = list(pointer_places(package.symbols))
@@ -127,6 +150,7 @@ class _Replay:
         self.comparison: Comparison = SameProgram(
             package.symbols, self.pointers, recording.image_address, self.application.image.address
         )
+        self.same_program = True
         self.place: Callable[[Place], Place | None] = lambda place: place
 
     @property
@@ -137,37 +161,33 @@ class _Replay:
 
     def run(self, code: CodePackage | None, show: Sequence[str], until: int | None) -> Replayed:
         images = RecordedPast(self.recording).forward()
-        self._restore(next(images))
+        first = next(islice(images, self.skipped, None))
+        self._restore(first)
         if code is not None:
             self._change(code)
         self.application.run()
-        self._force(self.recording.cycles[0].cycle)
-        self._run_due()  # tasks that come behind the bus cycle task in the moment of the first cycle
+        self._force(self.cycles[0].cycle)
         number = 0
         difference = None
         faulted = False
-        ended = islice(zip(self.recording.cycles[1:], images, strict=True), self._count(until))
+        ended = islice(zip(self.cycles[1:], images, strict=True), self._count(until))
         for one, image in ended:
-            self._set_clock(one.timestamp_ns, one.due_ns)
-            self._feed(one.cycle, image)
-            self._run_due()
-            number += 1
-            faulted = self.runtime.state == "exception"
+            compared = difference is None and not self._cut_short(one)
+            found = self._cycle(one, image, compared=compared)
+            faulted = self._failed
+            if self.application.contexts.tasks[self.bus]["cycle"] == one.cycle:
+                number += 1
             if faulted:
                 break
-            if difference is None and not self._cut_short(one):
-                difference = self._compare(one.cycle, image)
-        if not faulted and until is None and self.recording.exception is not None:
-            faulted = self._run_out()  # of a task that fails between two cycles of the bus cycle task
-        if difference is not None and code is None and not self.recording.virtual and self._tasks_beside():
-            self.notes.append(
-                f"several tasks ran in real time, and in which order is not recorded: from cycle"
-                f" {difference.cycle} on the replay may differ for that alone"
-            )
+            difference = difference or found
+        if not faulted and until is None:
+            faulted = self._run_out()
+        if difference is not None:
+            self._note_overlap(difference.cycle)
         values = {expression: self.runtime.literal(expression) for expression in show}
         return Replayed(
             cycles=number,
-            last_cycle=self.recording.cycles[number].cycle,
+            last_cycle=self.cycles[number].cycle,
             recorded=self.recording.exception,
             fault=self.runtime.exception if faulted else None,
             difference=difference,
@@ -175,12 +195,28 @@ class _Replay:
             values=values,
         )
 
-    def _tasks_beside(self) -> bool:
-        """Whether other tasks than the bus cycle task run programs."""
-        return any(task.programs for number, task in enumerate(self.package.tasks) if number != self.bus)
+    def _run_out(self) -> bool:
+        """What other tasks ran behind the last cycle of the bus cycle task; whether one of them failed."""
+        end = [task.end for task in self.recording.tasks]
+        if end[self.bus].completed != self.cycles[-1].tasks[self.bus].completed:
+            return False  # recording had been stopped before
+        return self._run_others(end, [task.completed for task in end])
+
+    def _met(self, one: RecordedCycle) -> bool:
+        """Whether other tasks ran at the same time as a cycle of the bus cycle task."""
+        return any(task.beside for number, task in enumerate(one.tasks) if number != self.bus)
+
+    def _note_overlap(self, cycle: int) -> None:
+        """That a difference in a cycle may come of tasks that ran at the same time."""
+        since = next((one.cycle for one in self.cycles if self._met(one)), None)
+        if since is not None and since <= cycle:
+            self.notes.append(
+                f"from cycle {since} on, tasks ran at the same time, and what each has seen of the other is"
+                f" not recorded: from cycle {cycle} on the replay may differ for that alone"
+            )
 
     def _count(self, until: int | None) -> int:
-        cycles = self.recording.cycles[1:]
+        cycles = self.cycles[1:]
         return len(cycles) if until is None else sum(1 for one in cycles if one.cycle <= until)
 
     # -- the beginning -----------------------------------------------------------------------------------
@@ -203,45 +239,17 @@ class _Replay:
         application.image.write(0, data)
         clock = application.contexts.application
         clock["epochOffset"] = recording.epoch_ns + recording.start_ns
-        first, last = recording.cycles[0], recording.cycles[-1]
-        clock["virtualNow"] = self._now(first.timestamp_ns)
-        clock["nextScan"] = clock["virtualNow"] + 1
-        specs = application.package.tasks
-        for number, (spec, task, was) in enumerate(
-            zip(specs, application.contexts.tasks, recording.tasks, strict=True)
-        ):
+        tasks = self.cycles[0].tasks
+        clock["virtualNow"] = self._due(tasks[self.bus].started_ns)
+        clock["nextScan"] = _NEVER  # what started the tasks of events is recorded
+        for task, was in zip(application.contexts.tasks, tasks, strict=True):
             task["started"] = 1
-            if spec.event_offset is not None:
-                byte = data[spec.event_offset]
-                task["eventLast"] = byte if spec.event_bit is None else byte >> spec.event_bit & 1
-            if number == self.bus:
-                task["cycle"] = first.cycle
-                task["programCycles"] = max(was.program_cycles - (last.cycle - first.cycle), 0)
-                task["due"] = self._due(first.due_ns) + (spec.interval_ns or 1)
-            elif spec.interval_ns and spec.kind == "cyclic":
-                self._place_task(task, was, spec.interval_ns, self._comes_later(number))
-
-    def _place_task(self, task: Record, was: RecordedTask, interval: int, later: bool) -> None:
-        """The next start of another cyclic task on its grid, and its counters there. One that comes behind
-        the bus cycle task in the same moment has still to run in it."""
-        at = self._due(self.recording.cycles[0].due_ns)
-        end = self._due(self.recording.cycles[-1].due_ns)
-        due = self._due(was.due_ns)
-        first = at + (due - at) % interval
-        if first == at and not later:
-            first += interval
-        task["due"] = first
-        task["cycle"] = max(was.cycle - max((due - first) // interval, 0), 0)
-        task["programCycles"] = max(was.program_cycles - max((end - first) // interval + 1, 0), 0)
-
-    def _comes_later(self, number: int) -> bool:
-        specs = self.application.package.tasks
-        mine, bus = specs[number], specs[self.bus]
-        return (mine.priority, number) > (bus.priority, self.bus)
-
-    def _now(self, timestamp_ns: int) -> int:
-        """Time of the application at a moment."""
-        return max(timestamp_ns - self.recording.epoch_ns - self.recording.start_ns, 0)
+            task["due"], task["pending"] = _NEVER, 0
+            task["cycle"], task["programCycles"], task["progress"] = (
+                was.cycle,
+                was.completed,
+                2 * was.completed,
+            )
 
     def _due(self, due_ns: int) -> int:
         return due_ns - self.recording.start_ns
@@ -258,28 +266,114 @@ class _Replay:
             raise ReplayError(f"today's program cannot take over the recorded variables: {error}") from error
         old, new = self.package.symbols, code.symbols
         self.place = lambda place: find_again(old, new, place)
+        self.same_program = False
         self.comparison = AcrossPrograms(self.package, code, self.pointers)
 
     # -- one cycle ---------------------------------------------------------------------------------------
 
-    def _feed(self, cycle: int, image: bytes) -> None:
-        """What the next cycle of the bus cycle task gets from outside."""
+    def _cycle(self, one: RecordedCycle, image: bytes, *, compared: bool) -> Difference | None:
+        """One cycle of the bus cycle task and those of others that ended since the one before.
+
+        Of tasks that ran at the same time the order is taken that leads to the recorded image, which may have
+        in it what a cycle did that was to end a moment later.
+        """
+        ended, begun = [t.after // 2 for t in one.tasks], [(t.after + 1) // 2 for t in one.tasks]
+        orders = [(ended, True)]
+        if compared and self.same_program and self._met(one):
+            orders += [(ended, False), *((begun, first) for first in (True, False) if begun != ended)]
+        kept = self._keep() if len(orders) > 1 else None
+        found = None
+        for done, others_first in orders:
+            if found is not None and kept is not None:
+                self._take_back(kept)
+            difference = self._attempt(one, image, done, others_first)
+            if difference is None or self._failed or not compared:
+                return None
+            found = found or difference
+        return found
+
+    def _attempt(
+        self, one: RecordedCycle, image: bytes, done: Sequence[int], others_first: bool
+    ) -> Difference | None:
+        if others_first and self._run_others(one.tasks, done):
+            return None
+        self._run_bus(one, image)
+        difference = self._compare(one.cycle, image)
+        if others_first or self._run_others(one.tasks, done) or difference is None:
+            return difference
+        now = self.application.image.read(0, self.application.image.size)
+        return self.comparison.difference(one.cycle, image, now)
+
+    def _keep(self) -> _Moment:
         application = self.application
+        tasks = [{name: task[name] for name in _COUNTERS} for task in application.contexts.tasks]
+        now = application.contexts.application["virtualNow"]
+        return _Moment(application.image.read(0, application.image.size), now, tasks, self.written, self.done)
+
+    def _take_back(self, kept: _Moment) -> None:
+        application = self.application
+        application.image.write(0, kept.image)
+        application.contexts.application["virtualNow"] = kept.now
+        for task, counters in zip(application.contexts.tasks, kept.tasks, strict=True):
+            for name, value in counters.items():
+                task[name] = value
+        self.written, self.done = kept.written, kept.done
+
+    def _run_bus(self, one: RecordedCycle, image: bytes) -> None:
+        """A cycle of the bus cycle task, with what it got from outside."""
         inputs = self.package.data_objects.get("tappet.area.I")
         if inputs is not None and inputs.size:
             data = image[inputs.offset : inputs.offset + inputs.size]
-            application.put_inputs(0, data[: application.area("I")[1]])
-        self._force(cycle)
-        waiting = []
+            self.application.put_inputs(0, data[: self.application.area("I")[1]])
+        self._force(one.cycle)
+        self._run(self.bus, one.tasks[self.bus].started_ns, one.due_ns)
+
+    def _run_others(self, tasks: Sequence[TaskProgress], done: Sequence[int]) -> bool:
+        """The cycles of other tasks up to a number of each, in the order in which they began; whether one of
+        them failed."""
+        starts = []
+        for number, (task, until) in enumerate(zip(tasks, done, strict=True)):
+            if number == self.bus:
+                continue
+            spec = self.application.package.tasks[number]
+            ahead = (task.after + 1) // 2 - until  # what is known of its last start is about a later cycle
+            for back in range(ahead, ahead + until - self.done[number]):
+                since = back * spec.interval_ns
+                starts.append((task.started_ns - since, spec.priority, number, task.requested_ns - since))
+        self.done = list(done)
+        for started, _, number, requested in sorted(starts):
+            self._run(number, started, requested)
+            if self._failed:
+                return True
+        return False
+
+    @property
+    def _failed(self) -> bool:
+        return self.runtime.state == "exception"
+
+    def _run(self, number: int, started_ns: int, requested_ns: int) -> None:
+        """One cycle of a task, at a moment."""
+        application = self.application
+        spec, task = application.package.tasks[number], application.contexts.tasks[number]
+        clock = application.contexts.application
+        now = clock["virtualNow"] = max(self._due(started_ns), clock["virtualNow"])
+        self._write(number, task["cycle"] + 1)
+        # a cycle that began later than the next one was due would be followed by that at once
+        task["due"] = min(now, max(self._due(requested_ns), now - spec.interval_ns + 1))
+        task["pending"] = int(spec.kind in EVENT_DRIVEN)
+        application.tasks.run_virtual(now + 1)
+        application.tasks.collect()
+        task["due"], task["pending"] = _NEVER, 0
+
+    def _write(self, number: int, cycle: int) -> None:
+        """What was written at the begin of a cycle of a task."""
+        application = self.application
         for write in self.written:
-            task = application.contexts.tasks[write.task]
-            if write.cycle > task["cycle"] + 1 or not self._runs_now(write.task):
-                waiting.append(write)
-            elif write.cycle == task["cycle"] + 1:
+            if (write.task, write.cycle) == (number, cycle):
                 values = list(self._placed(write.values))
                 batch = ValueList(application.executive.layouts, application.image.address, values)
                 application.executive.apply_values(batch.address)
-        self.written = waiting
+        self.written = [w for w in self.written if w.task != number or w.cycle > cycle]
 
     def _force(self, cycle: int) -> None:
         """The forces that were valid in a cycle of the bus cycle task."""
@@ -290,12 +384,6 @@ class _Replay:
                 application.forces.set(value, b"", NOBODY)
             application.publish_forces()
 
-    def _runs_now(self, number: int) -> bool:
-        """Whether a task comes with the next cycle of the bus cycle task."""
-        contexts = self.application.contexts
-        spec = self.application.package.tasks[number]
-        return spec.kind != "cyclic" or contexts.tasks[number]["due"] <= contexts.application["virtualNow"]
-
     def _placed(self, values: Iterable[RecordedValue]) -> Iterator[PlacedValue]:
         for value in values:
             size = 1 if value.bit is not None else len(value.data)
@@ -303,38 +391,10 @@ class _Replay:
             if place is not None:
                 yield PlacedValue(place, value.data)
 
-    def _set_clock(self, timestamp_ns: int, due_ns: int) -> None:
-        """The time of a cycle of the bus cycle task."""
-        application = self.application
-        clock, task = application.contexts.application, application.contexts.tasks[self.bus]
-        interval = application.package.tasks[self.bus].interval_ns
-        due = self._due(due_ns)
-        now = max(self._now(timestamp_ns), due)
-        if interval:
-            now = min(now, due + interval - 1)
-        task["due"] = due
-        clock["virtualNow"] = max(now, clock["virtualNow"])
-
-    def _run_due(self) -> None:
-        """One cycle of the bus cycle task, and of what else is due."""
-        application = self.application
-        application.tasks.run_virtual(application.contexts.application["virtualNow"] + 1)
-        application.tasks.collect()
-
-    def _run_out(self) -> bool:
-        """The rest of the time until another task failed, one interval of the slowest task at the most."""
-        application = self.application
-        clock = application.contexts.application
-        intervals = [task.interval_ns for task in application.package.tasks if task.interval_ns]
-        application.contexts.tasks[self.bus]["due"] = 1 << 62
-        application.tasks.run_virtual(clock["virtualNow"] + max(intervals, default=1))
-        application.tasks.collect()
-        return self.runtime.state == "exception"
-
     def _cut_short(self, one: RecordedCycle) -> bool:
         """Whether the recorded cycle ended in its fault, where other code goes on."""
-        last = self.recording.exception is not None and one is self.recording.cycles[-1]
-        return last and isinstance(self.comparison, AcrossPrograms)
+        last = self.recording.exception is not None and one is self.cycles[-1]
+        return last and not self.same_program
 
     def _compare(self, cycle: int, image: bytes) -> Difference | None:
         recorder = self.application.flight

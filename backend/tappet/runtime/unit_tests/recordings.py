@@ -13,8 +13,7 @@ from tappet.project.model import Project
 from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.flight_recording import FlightRecording, RecordingError, read_recording
 from tappet.runtime.replay_process import ReplayOrder, ReplayResult, replay_in_process
-from tappet.runtime.unit_tests.results import Failure, Report, SuiteOutcome, TestOutcome
-from tappet.runtime.unit_tests.runner import NO_TESTS
+from tappet.runtime.unit_tests.results import NO_TESTS, Failure, Report, SuiteOutcome, TestOutcome
 
 SUITE = "Flight recordings"
 BLOCK = "flight_recording"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
+NO_TESTS = "there are no tests: no block extends FB_TestSuite"
 Outcome = Literal["passed", "failed", "error", "skipped"]
 """failed: an assertion did not hold; error: an exception, or the test never finished."""
 

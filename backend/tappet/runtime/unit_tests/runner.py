@@ -24,14 +24,12 @@ from tappet.runtime.unit_tests.instrument import instrument
 from tappet.runtime.unit_tests.known import NOTHING, Known, Mark
 from tappet.runtime.unit_tests.memory import USED_UP, MemoryLimit, MemoryLimitReachedError
 from tappet.runtime.unit_tests.order import TestLimits
-from tappet.runtime.unit_tests.results import Report
+from tappet.runtime.unit_tests.results import NO_TESTS, Report
 
 DEFAULT_INTERVAL_NS = 10_000_000
 NS_PER_S = 1_000_000_000
 CHUNK = 100
 """Cycles between two looks whether all tests have finished."""
-
-NO_TESTS = "there are no tests: no block extends FB_TestSuite"
 
 
 @dataclass(frozen=True, slots=True)
