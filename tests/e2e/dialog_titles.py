@@ -8,14 +8,17 @@ from pathlib import Path
 
 from .ui import SOURCES, texts
 
-OPENING = re.compile(r"<(?:Form)?Dialog\s[^>]*?\btitle=\{|\bconfirm\(\{\s*title: ", re.DOTALL)
+OPENING = re.compile(
+    r"<(?:Form|TextImport|ListName)?Dialog\s[^>]*?\btitle=\{|\bconfirm\(\{\s*title: ", re.DOTALL
+)
 KEY = re.compile(r"['`]([a-z]\w*(?:\.[\w${}]+)+)['`]")
 
 
 def dialog_titles() -> dict[str, Path]:
     """Keys of the titles of all dialogs and the file of each.
 
-    A title is an expression beside `<Dialog`, `<FormDialog` or `confirm(`, or a constant of the same file.
+    A title is an expression beside `<Dialog`, a component that is one, or `confirm(`, or a constant of the
+    same file. Where it is a property of the component, those that use that say it.
     """
     found: dict[str, Path] = {}
     for path in sorted(SOURCES.rglob("*.ts*")):
@@ -23,7 +26,10 @@ def dialog_titles() -> dict[str, Path]:
             continue
         source = path.read_text(encoding="utf-8")
         for opening in OPENING.finditer(source):
-            titles = list(_keys(_expression(source, opening.end()), source))
+            expression = _expression(source, opening.end())
+            if re.search(rf"\b{re.escape(expression)}: string;", source):
+                continue
+            titles = list(_keys(expression, source))
             assert titles, f"{path}: which text is the title behind {opening[0]!r}?"
             found |= dict.fromkeys(titles, path)
     return found

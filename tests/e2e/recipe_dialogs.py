@@ -11,7 +11,14 @@ from .ui import Ui
 from .workbench import log_in, open_object
 
 
-@tour("recipes.addVariables", "recipes.addRecipe", "recipes.renameRecipe", "recipes.import", "recipes.files")
+@tour(
+    "recipes.addVariables",
+    "recipes.addRecipe",
+    "recipes.renameRecipe",
+    "recipes.import",
+    "recipes.files",
+    "recipes.deleteFile",
+)
 def recipes(ui: Ui, server: Server) -> Iterator[str]:
     """What is asked for variables, for names of recipes, and for a file."""
     page = ui.page
@@ -37,6 +44,11 @@ def recipes(ui: Ui, server: Server) -> Iterator[str]:
         log_in(page)
         ui.button("recipes.menu", ui.panel()).click()
         page.get_by_role("menuitem", name=ui.name("recipes.files")).click()
+        dialog = ui.dialog("recipes.files")
+        dialog.get_by_role("button", name=ui.text("recipes.saveThereNamed", name="Light")).click()
+        dialog.get_by_role("row").filter(has_text="Light.RecipeTour").click()
+        ui.button("recipes.deleteFileThere", dialog).click()
+        yield "recipes.deleteFile"
         yield "recipes.files"
         page.keyboard.press("Escape")
         page.keyboard.press("Control+F8")

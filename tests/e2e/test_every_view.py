@@ -12,6 +12,7 @@ from . import debugger_dialogs as debugger_dialogs  # its tour
 from . import motion_dialogs as motion_dialogs  # its tours
 from . import recipe_dialogs as recipe_dialogs  # its tour
 from . import trace_dialogs as trace_dialogs
+from . import watch_dialogs as watch_dialogs
 from .axe import serious_in_both_themes
 from .conftest import Server, new_profile, start_page
 from .dialog_titles import dialog_titles

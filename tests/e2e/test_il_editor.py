@@ -407,7 +407,7 @@ def test_values_are_shown_and_prepared_online(page: Page, table: Locator) -> Non
     expect(table.get_by_role("columnheader").nth(3)).to_have_text("Value")
     value = table.get_by_role("row").nth(2).get_by_role("button", name="Prepare a value for IL_Fill.bRun")
     expect(value).to_contain_text(re.compile("TRUE|FALSE"))
-    number = table.get_by_role("row").nth(5).get_by_role("button")
+    number = table.get_by_role("row").nth(5).get_by_role("button", name="Prepare a value for IL_Fill.iCount")
     expect(number).to_have_text(re.compile(r"^-?\d+$"))
     value.dblclick()
     expect(value).to_contain_text("<")

@@ -1,7 +1,7 @@
 import { api } from '@/api/client';
-import { TextImportDialog } from '@/editors/form/TextImportDialog';
 import { useText } from '@/i18n';
 import { notify } from '@/ui/notices';
+import { TextImportDialog } from '@/ui/TextImportDialog';
 import type { CamEdit } from './edit';
 
 interface ImportDialogProps {
@@ -24,8 +24,8 @@ export function ImportDialog({ projectId, edit, close }: ImportDialogProps) {
   };
   return (
     <TextImportDialog
+      title={t('cam.import')}
       texts={{
-        title: t('cam.import'),
         description: t('cam.importText'),
         action: t('cam.importAction'),
         empty: t('cam.importEmpty'),

@@ -1,7 +1,7 @@
 import { useState } from 'react';
-import { TextImportDialog } from '@/editors/form/TextImportDialog';
 import { useText } from '@/i18n';
 import { Field, Select } from '@/ui/Field';
+import { TextImportDialog } from '@/ui/TextImportDialog';
 import type { RecipeScene } from './scene';
 import { takeFile } from './takeFile';
 
@@ -18,8 +18,8 @@ export function ImportDialog({ scene, close }: { scene: RecipeScene; close: (ans
   };
   return (
     <TextImportDialog
+      title={t('recipes.import')}
       texts={{
-        title: t('recipes.import'),
         description: t('recipes.importText'),
         action: t('recipes.importAction'),
         empty: t('recipes.importEmpty'),

@@ -1,13 +1,13 @@
 import { Upload } from 'lucide-react';
 import { useRef, useState, type ReactNode } from 'react';
-import { Button } from '@/ui/Button';
-import { Field, TextArea } from '@/ui/Field';
-import { FormDialog } from '@/ui/FormDialog';
-import { explain } from '@/ui/notices';
+import { Button } from './Button';
+import { Field, TextArea } from './Field';
+import { FormDialog } from './FormDialog';
+import { explain } from './notices';
 
 interface TextImportDialogProps {
+  title: string;
   texts: {
-    title: string;
     description: string;
     action: string;
     /** Why nothing can be taken yet. */
@@ -32,7 +32,7 @@ interface TextImportDialogProps {
 
 /** A text that is chosen as a file or pasted, and taken over. */
 export function TextImportDialog(props: TextImportDialogProps) {
-  const { texts, accept, largest, rows, placeholder, take, close, children } = props;
+  const { title, texts, accept, largest, rows, placeholder, take, close, children } = props;
   const [text, setText] = useState('');
   const [fileName, setFileName] = useState('');
   const [fault, setFault] = useState<string | null>(null);
@@ -57,7 +57,7 @@ export function TextImportDialog(props: TextImportDialogProps) {
   };
   return (
     <FormDialog
-      title={texts.title}
+      title={title}
       description={texts.description}
       width={560}
       action={texts.action}
