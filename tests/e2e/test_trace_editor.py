@@ -185,6 +185,7 @@ def test_views_are_zoomed_and_come_back(page: Page, server: Server) -> None:
     trace = opened(page, server, record(FILLED, buffer=100))
     trace.download()
     trace.drawn(trace.diagrams.first, 0.1, 0.9)
+    expect(trace.editor.get_by_role("status", name="State")).to_contain_text("100 / 100")
     trace.tool("Stop Trace").click()
     back = trace.tool("Previous View")
     expect(back).to_have_attribute("aria-disabled", "true")
