@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from .conftest import Server
 from .every_dialog import tour
 from .ui import Ui
-from .workbench import tree_item
+from .workbench import open_panel, tree_item
 
 
 @tour("watch.newList", "watch.duplicateList", "watch.renameList", "watch.deleteTitle")
@@ -27,7 +27,7 @@ def watch_lists(ui: Ui, _server: Server) -> Iterator[str]:
     ):
         ui.command(command)
         yield title
-    table = page.locator("[data-panel-id]:visible").get_by_role("treegrid").last
+    table = open_panel(page, "Pumps").get_by_role("treegrid")
     table.get_by_role("row").last.get_by_role("gridcell").first.dblclick()
     page.keyboard.type("GVL_IO.xStartButton")
     page.keyboard.press("Escape" if page.get_by_role("listbox").count() else "Shift")
