@@ -295,7 +295,7 @@ class _Replay:
     def _attempt(
         self, one: RecordedCycle, image: bytes, done: Sequence[int], others_first: bool
     ) -> Difference | None:
-        if others_first and self._run_others(one.tasks, done):
+        if others_first and self._run_others(one.tasks, done, one.cycle):
             return None
         self._run_bus(one, image)
         difference = self._compare(one.cycle, image)
@@ -328,9 +328,11 @@ class _Replay:
         self._force(one.cycle)
         self._run(self.bus, one.tasks[self.bus].started_ns, one.due_ns)
 
-    def _run_others(self, tasks: Sequence[TaskProgress], done: Sequence[int]) -> bool:
-        """The cycles of other tasks up to a number of each, in the order in which they began; whether one of
-        them failed."""
+    def _run_others(
+        self, tasks: Sequence[TaskProgress], done: Sequence[int], cycle: int | None = None
+    ) -> bool:
+        """The cycles of other tasks up to a number of each, in the order in which they began, before a cycle
+        of the bus cycle task; whether one of them failed."""
         starts = []
         for number, (task, until) in enumerate(zip(tasks, done, strict=True)):
             if number == self.bus:
@@ -342,6 +344,9 @@ class _Replay:
                 starts.append((task.started_ns - since, spec.priority, number, task.requested_ns - since))
         self.done = list(done)
         for started, _, number, requested in sorted(starts):
+            if cycle is not None and self.recording.virtual and started >= tasks[self.bus].started_ns:
+                self._force(cycle)  # came when the time before had passed, also for what is due at the same
+                self._write(self.bus, cycle)
             self._run(number, started, requested)
             if self._failed:
                 return True
