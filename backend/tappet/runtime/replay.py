@@ -150,7 +150,6 @@ class _Replay:
         self.comparison: Comparison = SameProgram(
             package.symbols, self.pointers, recording.image_address, self.application.image.address
         )
-        self.same_program = True
         self.place: Callable[[Place], Place | None] = lambda place: place
 
     @property
@@ -266,7 +265,6 @@ class _Replay:
             raise ReplayError(f"today's program cannot take over the recorded variables: {error}") from error
         old, new = self.package.symbols, code.symbols
         self.place = lambda place: find_again(old, new, place)
-        self.same_program = False
         self.comparison = AcrossPrograms(self.package, code, self.pointers)
 
     # -- one cycle ---------------------------------------------------------------------------------------
@@ -279,7 +277,7 @@ class _Replay:
         """
         ended, begun = [t.after // 2 for t in one.tasks], [(t.after + 1) // 2 for t in one.tasks]
         orders = [(ended, True)]
-        if compared and self.same_program and self._met(one):
+        if compared and self._same_program and self._met(one):
             orders += [(ended, False), *((begun, first) for first in (True, False) if begun != ended)]
         kept = self._keep() if len(orders) > 1 else None
         found = None
@@ -353,6 +351,10 @@ class _Replay:
         return False
 
     @property
+    def _same_program(self) -> bool:
+        return isinstance(self.comparison, SameProgram)
+
+    @property
     def _failed(self) -> bool:
         return self.runtime.state == "exception"
 
@@ -399,7 +401,7 @@ class _Replay:
     def _cut_short(self, one: RecordedCycle) -> bool:
         """Whether the recorded cycle ended in its fault, where other code goes on."""
         last = self.recording.exception is not None and one is self.cycles[-1]
-        return last and not self.same_program
+        return last and not self._same_program
 
     def _compare(self, cycle: int, image: bytes) -> Difference | None:
         recorder = self.application.flight
