@@ -131,6 +131,7 @@ def test_relations_from_foreign_to_online_change(
         "changes": [],
         "changes_omitted": 0,
         "persistent": [],
+        "retain_layout_changes": False,
         "reserve": None,
         "loaded_project": None,
     }

@@ -35,9 +35,13 @@ class Plant:
         assert saved.status_code == 200, saved.text
         self.item = saved.json()
 
+    def login(self) -> dict[str, Any]:
+        answer = self.client.post(f"{self.url}/login", json=TARGET)
+        assert answer.status_code == 200, answer.text
+        return dict(answer.json())
+
     def differing(self) -> list[tuple[str, str]]:
-        report = self.client.post(f"{self.url}/login", json=TARGET).json()
-        return [(row["path"], row["reason"]) for row in report["persistent"]]
+        return [(row["path"], row["reason"]) for row in self.login()["persistent"]]
 
     def download(self, **more: Any) -> None:
         order = {**TARGET, "mode": "download", "start": True, **more}
@@ -76,3 +80,21 @@ def test_what_a_download_cannot_keep_is_told_and_all_can_begin_anew(
     assert plant.values("a", "e") == [1, 5]
     acts = [row["action"] for row in engineer.get("/api/v1/audit").json()]
     assert acts.count("reset-origin") == 1
+
+
+def test_a_login_says_whether_the_retain_file_is_written_anew(app: FastAPI, engineer: TestClient) -> None:
+    """It holds path, size and type of each variable (`runtime/retain.py`)."""
+    plant = Plant(engineer)
+    first = "a : DINT := 1; b : DINT := 2;"
+    plant.declare(first)
+    plant.download()
+    for text, anew in (
+        ("a : DINT := 7; b : DINT := 2;", False),  # another initial value only
+        ("a : DINT := 1; b : DINT := 2; c : DINT := 3;", True),
+        ("a : DINT := 1;", True),
+        ("a : DINT := 1; b : UDINT := 2;", True),
+    ):
+        plant.declare(text)
+        assert plant.login()["retain_layout_changes"] is anew, text
+    plant.declare(first)
+    assert plant.login()["relation"] == "same"

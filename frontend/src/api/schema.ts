@@ -7386,6 +7386,12 @@ export interface components {
             relation: components["schemas"]["Relation"];
             /** @description For an online change: how much of the reserved memory it takes. */
             reserve: components["schemas"]["ReserveUse"] | null;
+            /**
+             * Retain Layout Changes
+             * @description Whether RETAIN or PERSISTENT variables come, go or get another place or type: the retain file is written anew with the values that are kept.
+             * @default false
+             */
+            retain_layout_changes: boolean;
         };
         /**
          * LoginTarget

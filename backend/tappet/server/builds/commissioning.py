@@ -20,7 +20,7 @@ from tappet.runtime.operations.download import ReadImageMemory
 from tappet.runtime.operations.life_cycle import Reset, Start
 from tappet.server.builds.builder import Application, Builder, Built
 from tappet.server.builds.packages import PackageStore, StoredPackage
-from tappet.server.builds.persistent_changes import persistent_changes
+from tappet.server.builds.remanent_changes import remanent_changes
 from tappet.server.builds.shapes import BuildReport, ChangedVariable, LoginReport, Relation, ReserveUse
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
@@ -147,7 +147,7 @@ class Commissioning:
         if built.report.code_id == info.code_id:
             return LoginReport(relation=Relation.SAME, reasons=[])
         package = _package(built, "compared")
-        persistent = await run_in_threadpool(persistent_changes, loaded.data, package)
+        remanent = await run_in_threadpool(remanent_changes, loaded.data, package)
         if built.change_base == info.code_id:
             reasons = list(built.change_reasons) or ["Only code has changed; all data stay in place."]
             reserve = await _reserve_use(link, built)
@@ -158,7 +158,11 @@ class Commissioning:
                     "how much a download reserves."
                 )
                 return LoginReport(
-                    relation=Relation.DOWNLOAD, reasons=[reason], reserve=reserve, persistent=persistent
+                    relation=Relation.DOWNLOAD,
+                    reasons=[reason],
+                    reserve=reserve,
+                    persistent=remanent.persistent,
+                    retain_layout_changes=remanent.layout,
                 )
             return LoginReport(
                 reserve=reserve,
@@ -166,10 +170,16 @@ class Commissioning:
                 reasons=reasons,
                 changes=[ChangedVariable(**structs.asdict(row)) for row in built.changes.rows],
                 changes_omitted=built.changes.omitted,
-                persistent=persistent,
+                persistent=remanent.persistent,
+                retain_layout_changes=remanent.layout,
             )
         reasons = list(built.change_reasons) or ["The running application is another one."]
-        return LoginReport(relation=Relation.DOWNLOAD, reasons=reasons, persistent=persistent)
+        return LoginReport(
+            relation=Relation.DOWNLOAD,
+            reasons=reasons,
+            persistent=remanent.persistent,
+            retain_layout_changes=remanent.layout,
+        )
 
     def _project_name(self, project_id: str) -> str | None:
         """None for a project that has been deleted since."""

@@ -138,6 +138,11 @@ class LoginReport(Reply):
         default=[],
         description="Persistent variables that a download cannot keep: renamed, removed, or of another type.",
     )
+    retain_layout_changes: bool = Field(
+        default=False,
+        description="Whether RETAIN or PERSISTENT variables come, go or get another place or type: the "
+        "retain file is written anew with the values that are kept.",
+    )
     loaded_project: str | None = Field(
         default=None, description="Name of the project that the runtime's application came from, when known."
     )

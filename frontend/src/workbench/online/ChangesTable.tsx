@@ -22,7 +22,6 @@ import {
   EFFECTS,
   effectCounts,
   hiddenAtFirst,
-  retainLayoutChanges,
   shownChanges,
   typeText,
   type ChangedVariable,
@@ -57,7 +56,6 @@ export function ChangesTable({ answer, onLeave }: ChangesTableProps) {
   const hidden = chosen?.of === answer ? chosen.hidden : hiddenAtFirst(changes);
   const counts = useMemo(() => effectCounts(changes), [changes]);
   const rows = useMemo(() => shownChanges(changes, hidden, search), [changes, hidden, search]);
-  const retain = retainLayoutChanges(changes);
   const columns: Column<ChangedVariable>[] = [
     {
       id: 'path',
@@ -131,11 +129,11 @@ export function ChangesTable({ answer, onLeave }: ChangesTableProps) {
           empty={<Empty title={t('changes.noneShown')} />}
         />
       </div>
-      {(counts.moved > 0 || retain || answer.changes_omitted > 0 || answer.reserve) && (
+      {(counts.moved > 0 || answer.retain_layout_changes || answer.changes_omitted > 0 || answer.reserve) && (
         <p className={styles.note}>
           {[
             counts.moved > 0 && t('changes.pointers'),
-            retain && t('changes.retain'),
+            answer.retain_layout_changes && t('changes.retain'),
             answer.reserve &&
               t('changes.reserve', {
                 needed: bytesText(answer.reserve.needed),

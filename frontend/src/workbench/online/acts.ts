@@ -239,6 +239,7 @@ const NOTHING_TO_LOAD: LoginAnswer = {
   reserve: null,
   loaded_project: null,
   persistent: [],
+  retain_layout_changes: false,
 };
 
 /** Brings the built application into the runtime and shows its values from then on. */
@@ -282,8 +283,10 @@ export async function download(context: CommandContext): Promise<void> {
     return;
   }
   const session = context.online!;
-  const choice = await askDownload({ ...namesOf(context), running: session.runtime?.state === 'run' });
-  if (choice) await load(context, session.runtimeId, 'download', choice.start);
+  const { persistent } = await compare(context, session.runtimeId);
+  const running = session.runtime?.state === 'run';
+  const choice = await askDownload({ ...namesOf(context), running, persistent });
+  if (choice) await load(context, session.runtimeId, 'download', choice.start, choice.fresh);
 }
 
 /**

@@ -1,13 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import {
-  declaredAt,
-  effectCounts,
-  hiddenAtFirst,
-  retainLayoutChanges,
-  shownChanges,
-  typeText,
-  type ChangedVariable,
-} from './changes';
+import { declaredAt, effectCounts, hiddenAtFirst, shownChanges, typeText, type ChangedVariable } from './changes';
 
 const row = (path: string, effect: ChangedVariable['effect'], type = 'INT', before = ''): ChangedVariable => ({
   path,
@@ -45,13 +37,6 @@ describe('changes of variables', () => {
     expect(shownChanges(rows, new Set(), 'NNEW')).toEqual([rows[0]]);
     expect(shownChanges(rows, new Set(), 'string')).toEqual([rows[2]]);
     expect(shownChanges(rows, new Set(['lost', 'moved']), '')).toEqual([rows[0]]);
-  });
-
-  it('tell whether the layout of the retain memory changes', () => {
-    const retain = { ...row('PLC_PRG.r', 'moved'), remanent: true };
-    expect(retainLayoutChanges(rows)).toBe(false);
-    expect(retainLayoutChanges([...rows, retain])).toBe(true);
-    expect(retainLayoutChanges([{ ...retain, effect: 'kept' }])).toBe(false);
   });
 
   it('lead to one declaration', () => {

@@ -31,11 +31,6 @@ export function hiddenAtFirst(changes: readonly ChangedVariable[]): ReadonlySet<
   return new Set(all < changes.length ? quiet : []);
 }
 
-/** Whether remanent variables get other places: their file is written anew. */
-export function retainLayoutChanges(changes: readonly ChangedVariable[]): boolean {
-  return changes.some(({ remanent, effect }) => remanent && effect !== 'kept');
-}
-
 export function shownChanges(
   changes: readonly ChangedVariable[],
   hidden: ReadonlySet<Effect>,

@@ -1,4 +1,5 @@
 // @vitest-environment happy-dom
+import { flushSync } from 'react-dom';
 import { afterEach, describe, expect, it } from 'vitest';
 import { clear, reads, show } from '../../../tests/page';
 import type { LoginAnswer, RuntimeState } from '@/api/types';
@@ -17,6 +18,7 @@ const found = (relation: LoginAnswer['relation'], loaded_project: string | null 
   relation,
   reasons: [],
   persistent: [],
+  retain_layout_changes: false,
   changes: [],
   changes_omitted: 0,
   reserve: null,
@@ -66,8 +68,22 @@ describe('the question of a download', () => {
     [false, 'Download'],
   ])('while the machine runs (%s) has its focus on %s', async (running, button) => {
     const page = show(<DialogHost />);
-    void askDownload({ ...names, running });
+    void askDownload({ ...names, running, persistent: [] });
     await reads(page, "'Application' of project 'Line 2'");
     expect(focused()).toBe(button);
+  });
+
+  it('says which persistent variables lose their values, and lets the others begin anew', async () => {
+    const page = show(<DialogHost />);
+    const asked = askDownload({
+      ...names,
+      running: true,
+      persistent: [{ path: 'Kept.nParts', reason: 'type_changed' }],
+    });
+    await reads(page, 'Kept.nParts · has another type');
+    const box = page.querySelectorAll<HTMLElement>('[role="checkbox"]')[0]!;
+    flushSync(() => box.click());
+    [...page.querySelectorAll('button')].find(({ textContent }) => textContent === 'Download')!.click();
+    expect(await asked).toEqual({ start: true, fresh: true });
   });
 });

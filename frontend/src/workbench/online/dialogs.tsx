@@ -36,10 +36,14 @@ interface DownloadQuestion {
   application: string;
   project: string;
   running: boolean;
+  /** Persistent variables that cannot keep their values. */
+  persistent: LoginAnswer['persistent'];
 }
 
-export function askDownload(question: DownloadQuestion): Promise<{ start: boolean } | undefined> {
-  return openDialog<{ start: boolean }>((close) => <DownloadDialog {...question} close={close} />);
+type DownloadChoice = Pick<LoginChoice, 'start' | 'fresh'>;
+
+export function askDownload(question: DownloadQuestion): Promise<DownloadChoice | undefined> {
+  return openDialog<DownloadChoice>((close) => <DownloadDialog {...question} close={close} />);
 }
 
 /** The application has errors, and the runtime holds an older state of it: look at that one? */
@@ -79,8 +83,7 @@ function LoginDialog({
   const choices = loginChoices(answer.relation, mayLoad);
   const proposed = proposedChoice(choices, running);
   const [how, setHow] = useState(proposed ?? choices[0]!);
-  const [start, setStart] = useState(running);
-  const [fresh, setFresh] = useState(false);
+  const [choice, setChoice] = useState<DownloadChoice>({ start: running, fresh: false });
   const otherProject = answer.loaded_project ?? '';
   const values = { application, project, runtime: runtime.name, other: runtime.application ?? '', otherProject };
   const relation = answer.relation === 'foreign' && otherProject !== '' ? 'foreignProject' : answer.relation;
@@ -90,7 +93,7 @@ function LoginDialog({
       description={t(`login.relation.${relation}`, values)}
       width={answer.changes.length > 0 ? 860 : 520}
       onClose={() => close()}
-      onSubmit={() => close({ how, start: how === 'download' && start, fresh: how === 'download' && fresh })}
+      onSubmit={() => close({ how, ...(how === 'download' ? choice : { start: false, fresh: false }) })}
       action={t(`login.do.${how}`)}
       focusAction={proposed !== null}
       focusCancel={proposed === null}
@@ -115,15 +118,29 @@ function LoginDialog({
         answer.relation !== 'empty' && answer.reasons.length > 0 && <Reasons reasons={answer.reasons} />
       )}
       {how === 'download' && (
-        <>
-          {running && <p className={styles.warning}>{t('login.stops')}</p>}
-          {answer.persistent.length > 0 && <Persistent changes={answer.persistent} fresh={fresh} onFresh={setFresh} />}
-          <Checkbox checked={start} onChecked={setStart}>
-            {t('login.startAfter')}
-          </Checkbox>
-        </>
+        <DownloadTerms running={running} persistent={answer.persistent} choice={choice} onChoice={setChoice} />
       )}
     </FormDialog>
+  );
+}
+
+interface DownloadTermsProps extends Pick<DownloadQuestion, 'running' | 'persistent'> {
+  choice: DownloadChoice;
+  onChoice: (choice: DownloadChoice) => void;
+}
+
+/** What a download does to the machine, and what is to be done with it afterwards. */
+function DownloadTerms({ running, persistent, choice, onChoice }: DownloadTermsProps) {
+  return (
+    <>
+      {running && <p className={styles.warning}>{t('login.stops')}</p>}
+      {persistent.length > 0 && (
+        <Persistent changes={persistent} fresh={choice.fresh} onFresh={(fresh) => onChoice({ ...choice, fresh })} />
+      )}
+      <Checkbox checked={choice.start} onChecked={(start) => onChoice({ ...choice, start })}>
+        {t('login.startAfter')}
+      </Checkbox>
+    </>
   );
 }
 
@@ -172,23 +189,22 @@ function DownloadDialog({
   application,
   project,
   running,
+  persistent,
   close,
-}: DownloadQuestion & { close: Close<{ start: boolean }> }) {
-  const [start, setStart] = useState(running);
+}: DownloadQuestion & { close: Close<DownloadChoice> }) {
+  useText();
+  const [choice, setChoice] = useState<DownloadChoice>({ start: running, fresh: false });
   return (
     <FormDialog
       title={t('download.title')}
       description={t('download.text', { name: application, project })}
       onClose={() => close()}
-      onSubmit={() => close({ start })}
+      onSubmit={() => close(choice)}
       action={t('login.do.download')}
       focusAction={!running}
       focusCancel={running}
     >
-      {running && <p className={styles.warning}>{t('login.stops')}</p>}
-      <Checkbox checked={start} onChecked={setStart}>
-        {t('login.startAfter')}
-      </Checkbox>
+      <DownloadTerms running={running} persistent={persistent} choice={choice} onChoice={setChoice} />
     </FormDialog>
   );
 }
