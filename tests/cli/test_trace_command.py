@@ -80,6 +80,35 @@ def test_usage(tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: li
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("form", ["csv", "parquet"])
+def test_a_formula_without_values_is_refused_before_anything_is_recorded(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], form: str
+) -> None:
+    channels = [
+        {"variable": "Drive.fSetPosition", "name": "pos"},
+        {"formula": "pos *", "name": "half"},
+        {"formula": "pos - speed", "name": "lost"},
+    ]
+    path, file = _project(tmp_path, channels=channels), tmp_path / f"a.{form}"
+    assert main(["trace", str(path), "--time", "1s", "--to", str(file)]) == 2
+    said = capsys.readouterr().err
+    assert "record 'Drive', formula 'half': something is missing at the end (at 6)" in said
+    assert (
+        "record 'Drive', formula 'lost': no recorded variable is called 'speed' (at 7); there are: pos"
+        in said
+    )
+    assert not file.exists()
+
+
+def test_a_trace_file_holds_formulas_as_they_are_written(tmp_path: Path) -> None:
+    channels = [{"variable": "Drive.fSetPosition"}, {"formula": "pos *"}]
+    path, file = _project(tmp_path, channels=channels), tmp_path / "a.trace"
+    assert main(["trace", str(path), "--time", "1s", "--to", str(file)]) == 0
+    with file.open("rb") as opened:
+        settings = TraceReader(opened).head.settings
+    assert settings["records"][0]["channels"][1]["formula"] == "pos *"
+
+
 def test_a_trace_that_is_not_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = _project(tmp_path).with_name("Other")
     assert main(["trace", str(path), "--time", "1s", "--to", "a.csv"]) == 2

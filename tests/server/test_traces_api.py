@@ -341,6 +341,43 @@ def test_files_and_stored_recordings(client: TestClient, tmp_path: Path, project
     assert bad.json()["type"] == "urn:tappet:problem:trace-file-invalid"
 
 
+def test_an_export_names_the_formulas_that_have_no_values(
+    client: TestClient, project: tuple[str, str]
+) -> None:
+    """Of a running trace and of a stored recording; without formulas the recorded variables can be had."""
+    channels = [
+        {"variable": "PLC_PRG.s", "name": "s"},
+        {"formula": "s * 2", "name": "good"},
+        {"formula": "s + FOO(1)", "name": "wrong"},
+        {"formula": "s - gone", "name": "lost"},
+    ]
+    data = {"records": [{"name": "Fast", "channels": channels}]}
+    assert client.put(f"{TRACES}/Broken", json={"data": data}).status_code == 200
+    until(lambda: client.get(f"{TRACES}/Broken").json()["records"][0]["samples"] > 3)
+    stored = client.post(f"{TRACES}/Broken/snapshot", json={"project_id": project[0]}).json()
+    for place in (f"{TRACES}/Broken", f"{RECORDINGS}/{stored['id']}"):
+        for form in ("csv", "parquet"):
+            refused = client.get(f"{place}/export", params={"format": form})
+            assert refused.status_code == 422
+            found = refused.json()
+            assert found["type"] == "urn:tappet:problem:formula-invalid"
+            assert found["detail"].startswith("The formula 'wrong' of the record 'Fast' has no values: ")
+            told = [(p["record"], p["channel"], p["field"], p["message"]) for p in found["problems"]]
+            assert told[0][:3] == (0, 2, "formula")
+            assert told[0][3].startswith("there is no function 'FOO' (at 5); there are ABS, SQRT")
+            assert told[1:] == [
+                (0, 3, "formula", "no recorded variable is called 'gone' (at 5); there are: s")
+            ]
+        text = client.get(f"{place}/export", params={"format": "csv", "formulas": "false"}).text
+        assert next(csv.reader(io.StringIO(text))) == ["time_ns", "cycle", "PLC_PRG.s"]
+        assert client.get(f"{place}/export", params={"format": "trace"}).status_code == 200
+    chinese = {"Accept-Language": "zh"}
+    said = client.get(f"{TRACES}/Broken/export", params={"format": "csv"}, headers=chinese).json()
+    assert said["problems"][1]["message"] == "没有名为“gone”的已记录变量（位置 5）；现有：s"
+    client.delete(f"{TRACES}/Broken")
+    client.delete(f"{RECORDINGS}/{stored['id']}")
+
+
 def test_a_file_may_be_larger_than_other_requests(client: TestClient, tmp_path: Path) -> None:
     count = 1_200_000
     values = np.random.default_rng(1).normal(size=count)

@@ -16,7 +16,7 @@ from tappet.cli.runtime_access import TOKEN_VARIABLE, runtime_token
 from tappet.project.project_file import is_project
 
 if TYPE_CHECKING:
-    from tappet.project.trace import TraceData
+    from tappet.project.trace import TraceData, TraceRecord
     from tappet.runtime.sampled import TraceSpec, TraceStatus
     from tappet.traces.reader import RecordReader
     from tappet.traces.recording import RecordInfo
@@ -57,6 +57,8 @@ def trace(given: Namespace) -> int:
     if time_ns is None and any(record.trigger.edge == "none" for record in data.records):
         raise UsageError(f"a record of '{name}' has no trigger: say with --time how long to record")
     chosen = _record_number(data, given.record)
+    if form != "trace":
+        _check_formulas(data.records[chosen])
     if given.runtime is None:
         status, readers, batches = _here(given, name, data, time_ns)
     else:
@@ -91,6 +93,17 @@ def _record_number(data: TraceData, wanted: str | None) -> int:
             return number
     names = ", ".join(record.name for record in data.records)
     raise UsageError(f"there is no record '{wanted}'; there is {names}")
+
+
+def _check_formulas(record: TraceRecord) -> None:
+    """Before anything is recorded: the file would not have what was asked for."""
+    from tappet.traces.formula_channels import FormulasError, check_formulas
+
+    try:
+        check_formulas(record)
+    except FormulasError as error:
+        lines = [f"record '{record.name}', formula '{one.name}': {one.message}" for one in error.problems]
+        raise UsageError("\n".join(lines)) from error
 
 
 def _spec(name: str, data: TraceData, symbols: Any, tasks: Any, code_id: str) -> TraceSpec:
@@ -225,17 +238,16 @@ def _write(
     chosen: int,
 ) -> None:
     from tappet.traces.formats import csv_lines, write_parquet, write_trace
-    from tappet.traces.formula import with_formulas
+    from tappet.traces.formula_channels import with_formulas
     from tappet.whole_file import write_output
 
-    computed = with_formulas(records[chosen][1], data, chosen)
     if form == "csv":
-        write_output(path, b"".join(csv_lines(computed)))
+        write_output(path, b"".join(csv_lines(with_formulas(records[chosen][1], data, chosen))))
         return
     unfinished = path.with_name(path.name + ".new")
     try:
         if form == "parquet":
-            write_parquet(computed, unfinished)
+            write_parquet(with_formulas(records[chosen][1], data, chosen), unfinished)
         else:
             write_trace(unfinished, status.name, status.application, data.model_dump(mode="json"), records)
         unfinished.replace(path)

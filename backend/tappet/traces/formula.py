@@ -1,27 +1,50 @@
 """Formula channels: an IEC expression over other channels, computed for many samples at once in LREAL.
 
-The twin of the editor's `analysis/formula.ts`: the same words, the same values. TRUE is 1 and FALSE is 0;
-where a channel has no value, the formula has none. Precedence is that of IEC 61131-3, table 71.
+The twin of the editor's `analysis/formula.ts`: the same words, values and faults, by one table of cases
+(tests/traces/data). TRUE is 1 and FALSE is 0; where a channel has no value, the formula has none. Precedence
+is that of IEC 61131-3, table 71; the values are those of IEEE 754.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from tappet.project.trace import TraceData
-from tappet.traces.recording import ChannelInfo
-from tappet.traces.samples import Flags, Integers, Reals, Samples, reduced
+from tappet.traces.samples import Reals
 
 Node = Callable[[Sequence[Reals]], Reals]
+Fault = Literal["empty", "unexpected", "end", "function", "arguments", "tooDeep"]
 
 
 class FormulaError(ValueError):
-    """What is wrong with a formula, and where."""
+    """What is wrong with a formula, and where: `at` from 0, at the token `word`."""
+
+    def __init__(self, fault: Fault, at: int, word: str) -> None:
+        super().__init__(_sentence(fault, at, word))
+        self.fault = fault
+        self.at = at
+        self.word = word
+
+
+def _sentence(fault: Fault, at: int, word: str) -> str:
+    match fault:
+        case "empty":
+            return "the formula is empty"
+        case "end":
+            return f"something is missing at the end (at {at + 1})"
+        case "unexpected":
+            return f"'{word}' cannot stand at {at + 1}"
+        case "function":
+            return f"there is no function '{word}' (at {at + 1}); there are {', '.join(FUNCTIONS)}"
+        case "arguments":
+            known = FUNCTIONS[word.upper()]
+            count = f"{known.least} to {known.most}" if known.least < known.most else f"{known.least}"
+            return f"'{word}' takes {count} arguments (at {at + 1})"
+        case "tooDeep":
+            return f"the formula is nested too deeply (at {at + 1}); at most {_MOST_DEPTH} levels"
 
 
 class _Call(NamedTuple):
@@ -43,6 +66,15 @@ def _fold(of: Callable[[Reals, Reals], Reals]) -> Callable[..., Reals]:
     return folded
 
 
+def _smaller(one: Reals, other: Reals) -> Reals:
+    """As IEEE 754-2019 minimum: no value where one has none, and -0 is less than 0."""
+    return np.asarray(np.where(one == other, np.where(np.signbit(one), one, other), np.minimum(one, other)))
+
+
+def _larger(one: Reals, other: Reals) -> Reals:
+    return -_smaller(-one, -other)
+
+
 def _truth(value: object) -> Reals:
     return np.asarray(value, np.float64)
 
@@ -57,8 +89,8 @@ FUNCTIONS = {
     "ASIN": _one(np.arcsin), "ACOS": _one(np.arccos), "ATAN": _one(np.arctan), "TRUNC": _one(np.trunc),
     "FLOOR": _one(np.floor), "CEIL": _one(np.ceil), "SGN": _one(np.sign),
     "ATAN2": _Call(2, 2, np.arctan2), "EXPT": _Call(2, 2, np.power), "SEL": _Call(3, 3, _select),
-    "MIN": _Call(2, 64, _fold(np.minimum)), "MAX": _Call(2, 64, _fold(np.maximum)),
-    "LIMIT": _Call(3, 3, lambda low, value, high: np.minimum(np.maximum(value, low), high)),
+    "MIN": _Call(2, 64, _fold(_smaller)), "MAX": _Call(2, 64, _fold(_larger)),
+    "LIMIT": _Call(3, 3, lambda low, value, high: _smaller(_larger(value, low), high)),
 }  # fmt: skip
 _CONSTANTS = {"TRUE": 1.0, "FALSE": 0.0, "PI": float(np.pi)}
 _LEVELS: tuple[dict[str, Callable[[Reals, Reals], Reals]], ...] = (
@@ -79,19 +111,19 @@ _LEVELS: tuple[dict[str, Callable[[Reals, Reals], Reals]], ...] = (
 """Operators from loose to tight."""
 _OPERATORS = {word: (number, act) for number, level in enumerate(_LEVELS) for word, act in level.items()}
 _WORDS = {"OR", "XOR", "AND", "MOD", "NOT"}
-_MOST_DEPTH = 100
-_TOO_DEEP = "the formula is nested too deeply"
+_MOST_DEPTH = 50
+"""Of brackets and signs: the parser calls itself up to eleven times a level."""
 _TOKEN = re.compile(
-    r"\s*(?:(?P<number>16#[0-9A-Fa-f_]+|8#[0-7_]+|2#[01_]+|\d[\d_]*(?:\.\d[\d_]*)?(?:[eE][+-]?\d+)?)"
-    r"|(?P<name>[A-Za-z_]\w*(?:\^?(?:\s*\.\s*\w+|\s*\[[^\]\[]*(?:\[[^\]]*\][^\]\[]*)*\]))*\^?)"
-    r"|(?P<sign>\*\*|<=|>=|<>|[-+*/()<>=,&])|(?P<end>$))",
-    re.ASCII,
+    r"\s*(?:(?P<number>16#[0-9A-Fa-f][0-9A-Fa-f_]*|8#[0-7][0-7_]*|2#[01][01_]*|\d[\d_]*(?:\.\d[\d_]*)?(?:[eE][+-]?\d+)?)"
+    r"|(?P<name>(?u:[^\W\d]\w*)(?:\^?(?:\s*\.\s*(?u:\w+)|\s*\[[^\]\[]*(?:\[[^\]]*\][^\]\[]*)*\]))*\^?)"
+    r"|(?P<sign>\*\*|<=|>=|<>|[-+*/()<>=,&])|(?P<end>\Z)|(?P<other>.))",
+    re.ASCII | re.DOTALL,
 )
 
 
 def channel_key(name: str) -> str:
     """As names are compared: without spaces, in capitals."""
-    return re.sub(r"\s+", "", name).upper()
+    return re.sub(r"\s+", "", name, flags=re.ASCII).upper()
 
 
 class Formula:
@@ -103,32 +135,27 @@ class Formula:
         self._depth = 0
         self.channels: list[str] = []
         """Keys of the channels it is over, each once."""
+        self.spelt: list[tuple[str, int]] = []
+        """As they are first written, and where, from 0."""
         self._next()
         if self._kind == "end":
-            raise FormulaError("the formula is empty")
-        try:
-            self._root = self._expression()
-        except RecursionError:
-            raise FormulaError(_TOO_DEEP) from None
+            raise FormulaError("empty", 0, "")
+        self._root = self._expression()
         if self._kind != "end":
             raise self._unexpected()
 
     def values(self, channels: Sequence[Reals]) -> Reals:
         """For samples of `channels`, in their order."""
         shape = channels[0].shape if channels else (1,)
-        try:
-            with np.errstate(all="ignore"):
-                found = np.array(np.broadcast_to(self._root(channels), shape))
-        except RecursionError:
-            raise FormulaError(_TOO_DEEP) from None
+        with np.errstate(all="ignore"):
+            found = np.array(np.broadcast_to(self._root(channels), shape))
         for one in channels:
             found[np.isnan(one)] = np.nan
         return found
 
     def _next(self) -> None:
         match = _TOKEN.match(self._text, self._at)
-        if match is None:
-            raise FormulaError(f"'{self._text[self._at :].lstrip()[:1]}' cannot stand at {self._at + 1}")
+        assert match is not None  # any character is a token
         self._kind = str(match.lastgroup)
         self._word = match[self._kind]
         self._begin = match.start(self._kind)
@@ -139,12 +166,11 @@ class Formula:
         return "" if self._kind == "number" else self._word.upper()
 
     def _unexpected(self) -> FormulaError:
-        what = "the end" if self._kind == "end" else f"'{self._word}'"
-        return FormulaError(f"{what} cannot stand at {self._begin + 1}")
+        return FormulaError("end" if self._kind == "end" else "unexpected", self._begin, self._word)
 
     def _deeper(self, read: Callable[[], Node]) -> Node:
         if self._depth >= _MOST_DEPTH:
-            raise FormulaError(_TOO_DEEP)
+            raise FormulaError("tooDeep", self._begin, self._word)
         self._depth += 1
         node = read()
         self._depth -= 1
@@ -173,7 +199,7 @@ class Formula:
         if kind == "number":
             self._next()
             base, _, digits = word.replace("_", "").rpartition("#")
-            number = _truth(int(digits, int(base)) if base else float(digits))
+            number = _truth(_whole(digits, int(base)) if base else float(digits))
             return lambda _: number
         if word == "(":
             self._next()
@@ -182,15 +208,17 @@ class Formula:
             return inner
         if kind != "name" or word.upper() in _WORDS:
             raise self._unexpected()
+        begin = self._begin
         self._next()
         if self._word == "(":
-            return self._call(word)
+            return self._call(word, begin)
         constant = _CONSTANTS.get(word.upper())
         if constant is not None:
             return lambda _: _truth(constant)
         key = channel_key(word)
         if key not in self.channels:
             self.channels.append(key)
+            self.spelt.append((word, begin))
         place = self.channels.index(key)
         return lambda values: values[place]
 
@@ -199,18 +227,26 @@ class Formula:
             raise self._unexpected()
         self._next()
 
-    def _call(self, name: str) -> Node:
+    def _call(self, name: str, begin: int) -> Node:
         known = FUNCTIONS.get(name.upper())
         if known is None:
-            raise FormulaError(f"there is no function '{name}'")
+            raise FormulaError("function", begin, name)
         given: list[Node] = []
         while not given or self._word == ",":
             self._next()
             given.append(self._deeper(self._expression))
         self._close()
         if not known.least <= len(given) <= known.most:
-            raise FormulaError(f"'{name}' takes {known.least} to {known.most} values")
+            raise FormulaError("arguments", begin, name)
         return lambda values: known.of(*(one(values) for one in given))
+
+
+def _whole(digits: str, base: int) -> float:
+    """The nearest LREAL; beyond the largest one infinite, as a decimal number is."""
+    try:
+        return float(int(digits, base))
+    except OverflowError:
+        return float("inf")
 
 
 def _chain(first: Node, steps: Sequence[tuple[Callable[[Reals, Reals], Reals], Node]]) -> Node:
@@ -223,94 +259,3 @@ def _chain(first: Node, steps: Sequence[tuple[Callable[[Reals, Reals], Reals], N
         return found
 
     return values
-
-
-class WithFormulas:
-    """Samples with further channels that are computed of theirs, block by block.
-
-    A formula that cannot be read, or is over what was not recorded, has no values.
-    """
-
-    def __init__(
-        self, samples: Samples, names: Sequence[str], formulas: Sequence[tuple[int, str, str]]
-    ) -> None:
-        """`names` of the channels of `samples` in formulas; number, name and text of each formula."""
-        self._samples = samples
-        self._places = {channel_key(name): number for number, name in enumerate(names)}
-        self._formulas = [self._read(text) for _, _, text in formulas]
-        extra = [ChannelInfo(index, name, "LREAL", "f8") for index, name, _ in formulas]
-        self.channels = [*samples.channels, *extra]
-
-    def _read(self, text: str) -> Formula | None:
-        try:
-            formula = Formula(text)
-        except FormulaError:
-            return None
-        return formula if all(key in self._places for key in formula.channels) else None
-
-    @property
-    def count(self) -> int:
-        """How many there are."""
-        return self._samples.count
-
-    def times(self, start: int, stop: int) -> Integers:
-        """Unix times in ns."""
-        return self._samples.times(start, stop)
-
-    def cycles(self, start: int, stop: int) -> Integers:
-        """Numbers of the cycles."""
-        return self._samples.cycles(start, stop)
-
-    def gaps(self, start: int, stop: int) -> Flags:
-        """1 where samples are missing before."""
-        return self._samples.gaps(start, stop)
-
-    def times_at(self, numbers: Integers) -> Integers:
-        """Unix times of single samples."""
-        return self._samples.times_at(numbers)
-
-    def gaps_at(self, numbers: Integers) -> Flags:
-        """1 where samples are missing before single samples."""
-        return self._samples.gaps_at(numbers)
-
-    def native(self, channel: int, start: int, stop: int) -> npt.NDArray[Any]:
-        """Values as the type of the variable has them; of a formula LREAL."""
-        own = len(self._samples.channels)
-        if channel < own:
-            return self._samples.native(channel, start, stop)
-        formula = self._formulas[channel - own]
-        count = max(0, stop - start)
-        if formula is None:
-            return np.full(count, np.nan)
-        places = [self._places[key] for key in formula.channels]
-        columns = [self._samples.native(place, start, stop).astype(np.float64) for place in places]
-        try:
-            found = formula.values(columns)
-        except FormulaError:
-            return np.full(count, np.nan)
-        return found if columns else np.full(count, found[0])
-
-    def search(self, time: int) -> int:
-        """Number of the first sample that is not before a time."""
-        return self._samples.search(time)
-
-    def extremes(self, channel: int, start: int, stop: int, step: int) -> tuple[Reals, Reals]:
-        """Least and largest values of blocks."""
-        if channel < len(self._samples.channels):
-            return self._samples.extremes(channel, start, stop, step)
-        return reduced(self.native(channel, start, stop), step)
-
-
-def with_formulas(samples: Samples, settings: TraceData, record: int) -> Samples:
-    """The samples of a record with what its settings compute of them."""
-    channels = settings.records[record].channels if record < len(settings.records) else ()
-    formulas = [
-        (number, channel.shown_name, channel.formula)
-        for number, channel in enumerate(channels)
-        if channel.formula.strip()
-    ]
-    # A file of another program may number its channels otherwise.
-    names = [
-        channels[one.index].shown_name if one.index < len(channels) else one.name for one in samples.channels
-    ]
-    return WithFormulas(samples, names, formulas) if formulas else samples

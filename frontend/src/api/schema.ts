@@ -17446,6 +17446,8 @@ export interface operations {
             query?: {
                 record?: number;
                 format?: "csv" | "parquet" | "trace";
+                /** @description Columns of the formulas, too; one without values is the problem `formula-invalid`. */
+                formulas?: boolean;
             };
             header?: never;
             path: {
@@ -20165,6 +20167,8 @@ export interface operations {
             query?: {
                 record?: number;
                 format?: "csv" | "parquet" | "trace";
+                /** @description Columns of the formulas, too; one without values is the problem `formula-invalid`. */
+                formulas?: boolean;
             };
             header?: never;
             path: {

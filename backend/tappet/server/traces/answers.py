@@ -15,10 +15,10 @@ from starlette.concurrency import run_in_threadpool
 
 from tappet.project.trace import TraceData
 from tappet.server.problems import Problem
-from tappet.server.traces.shapes import ChannelSpectrum, ChannelStatistics, ExportFormat
+from tappet.server.traces.shapes import ChannelSpectrum, ChannelStatistics, ExportFormat, TraceProblem
 from tappet.server.traces.shown import BINARY, Shown, Span
 from tappet.traces import analysis, formats, windows
-from tappet.traces.formula import with_formulas
+from tappet.traces.formula_channels import FormulasError, with_formulas
 from tappet.traces.questions import MOST_SAMPLES, Operation, WindowFunction
 from tappet.traces.samples import BatchSamples, Samples
 
@@ -120,13 +120,18 @@ async def export(
     records: Sequence[Shown],
     record: int,
     form: ExportFormat,
+    *,
+    formulas: bool,
 ) -> Response:
-    """A file: CSV and Parquet of one record with its formulas, a trace file of all."""
+    """A file: CSV and Parquet of one record, with its formulas if wanted, a trace file of all. Raises the 422
+    problem `formula-invalid` where a formula has no values."""
     plain = name.encode("ascii", "replace").decode()
     file_name = "".join(c if c.isalnum() or c in "-_ " else "_" for c in plain)[:100] or "trace"
     headers = {"Content-Disposition": f'attachment; filename="{file_name}.{form}"'}
     if form != "trace":
-        computed = with_formulas(records[record].samples, TraceData.model_validate(settings), record)
+        computed = records[record].samples
+        if formulas:
+            computed = _with_formulas(computed, TraceData.model_validate(settings), record)
     if form == "csv":
         lines = _locked_lines(records[record], computed)
         return StreamingResponse(lines, media_type="text/csv; charset=utf-8", headers=headers)
@@ -151,6 +156,23 @@ async def export(
         raise
     media = "application/vnd.apache.parquet" if form == "parquet" else "application/octet-stream"
     return FileResponse(path, media_type=media, headers=headers, background=BackgroundTask(remove))
+
+
+def _with_formulas(samples: Samples, settings: TraceData, record: int) -> Samples:
+    try:
+        return with_formulas(samples, settings, record)
+    except FormulasError as error:
+        first = error.problems[0]
+        raise Problem(
+            422,
+            "formula-invalid",
+            f"The formula '{first.name}' of the record '{settings.records[record].name}' has no values: "
+            f"{first.message}. Correct it, or export without formulas.",
+            problems=[
+                TraceProblem(record=record, channel=one.channel, field="formula", message=one.message)
+                for one in error.problems
+            ],
+        ) from error
 
 
 def _locked_lines(shown: Shown, samples: Samples) -> Iterator[bytes]:

@@ -19,7 +19,13 @@ from tappet.server.problems import Problem
 from tappet.server.routing import Router
 from tappet.server.spoken import LanguageDep, in_language
 from tappet.server.traces.index import Wanted
-from tappet.server.traces.sample_routes import FILE_ANSWER, Format, RecordNumber, add_sample_routes
+from tappet.server.traces.sample_routes import (
+    FILE_ANSWER,
+    Format,
+    RecordNumber,
+    WithFormulas,
+    add_sample_routes,
+)
 from tappet.server.traces.service import recording_info, recording_with_settings, shown_recording
 from tappet.server.traces.shapes import (
     Recording,
@@ -193,6 +199,7 @@ async def export_recording(
     recording: RecordingDep,
     record: RecordNumber = 0,
     form: Format = "trace",
+    formulas: WithFormulas = True,
 ) -> Response:
     """A recording as a file: CSV or Parquet of one record, or a trace file (Save Trace)."""
     from tappet.server.traces import answers
@@ -200,4 +207,6 @@ async def export_recording(
     shown_recording(recording, record)
     records = [shown_recording(recording, number) for number in range(len(recording.records))]
     meta = recording.meta
-    return await answers.export(meta.title, meta.application, meta.settings, records, record, form)
+    return await answers.export(
+        meta.title, meta.application, meta.settings, records, record, form, formulas=formulas
+    )

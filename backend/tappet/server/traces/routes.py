@@ -22,7 +22,13 @@ from tappet.server.routing import Router
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.services import Services
 from tappet.server.traces.recorder import record_infos
-from tappet.server.traces.sample_routes import FILE_ANSWER, Format, RecordNumber, add_sample_routes
+from tappet.server.traces.sample_routes import (
+    FILE_ANSWER,
+    Format,
+    RecordNumber,
+    WithFormulas,
+    add_sample_routes,
+)
 from tappet.server.traces.service import (
     compiled,
     download,
@@ -174,6 +180,7 @@ async def export_trace(
     services: ServicesDep,
     record: RecordNumber = 0,
     form: Format = "trace",
+    formulas: WithFormulas = True,
 ) -> Response:
     """What a trace holds, as a file: CSV or Parquet of one record, or a trace file (Save Trace)."""
     from tappet.server.traces import answers
@@ -184,7 +191,9 @@ async def export_trace(
     assert status is not None
     settings: dict[str, Any] = (await settings_of(link, name)).model_dump(mode="json")
     shown = [shown_mirror(one) for one in await mirror.records()]
-    return await answers.export(status.name, status.application, settings, shown, record, form)
+    return await answers.export(
+        status.name, status.application, settings, shown, record, form, formulas=formulas
+    )
 
 
 @router.post("/{name}/snapshot", status_code=201)

@@ -20,6 +20,10 @@ Chosen = Annotated[str | None, Query(pattern=r"^\d{1,3}(,\d{1,3})*$", max_length
 First = Annotated[int, Query(ge=0, lt=1 << 53)]
 Count = Annotated[int, Query(ge=1, le=MOST_SAMPLES)]
 Format = Annotated[ExportFormat, Query(alias="format")]
+WithFormulas = Annotated[
+    bool,
+    Query(description="Columns of the formulas, too; one without values is the problem `formula-invalid`."),
+]
 FILE_ANSWER: dict[int | str, dict[str, Any]] = {
     200: {
         "content": {"application/octet-stream": {"schema": {"type": "string", "format": "binary"}}},

@@ -60,7 +60,7 @@ class TraceProblem(Reply):
 
     record: int
     channel: int | None
-    field: Literal["variable", "condition", "trigger.variable", "trigger.level", "task"]
+    field: Literal["variable", "condition", "trigger.variable", "trigger.level", "task", "formula"]
     message: str
 
 

@@ -1,6 +1,6 @@
 import { useState } from 'react';
 import { useText } from '@/i18n';
-import { Field, Select } from '@/ui/Field';
+import { Checkbox, Field, Select } from '@/ui/Field';
 import { FormDialog } from '@/ui/FormDialog';
 import { notifyError } from '@/ui/notices';
 import type { TraceRecord } from './configuration';
@@ -20,9 +20,10 @@ export function ExportDialog({ records, online, close }: ExportDialogProps) {
   const t = useText();
   const [format, setFormat] = useState<Format>('csv');
   const [record, setRecord] = useState('0');
+  const [formulas, setFormulas] = useState(true);
   const write = async () => {
     try {
-      await online.save(format, Number(record));
+      await online.save(format, Number(record), formulas);
       close(true);
     } catch (error) {
       notifyError(error);
@@ -57,6 +58,11 @@ export function ExportDialog({ records, online, close }: ExportDialogProps) {
             />
           )}
         </Field>
+      )}
+      {records[Number(record)]?.channels.some(({ formula }) => formula.trim() !== '') && (
+        <Checkbox checked={formulas} onChecked={setFormulas}>
+          {t('trace.exportFormulas')}
+        </Checkbox>
       )}
     </FormDialog>
   );

@@ -111,6 +111,16 @@ describe('faults', () => {
       ['trace.fault.formula.channel', { name: 'c' }],
     ]);
   });
+
+  it('refuse a formula over a formula, whose values are not recorded', () => {
+    const [record] = two.records;
+    const twice = { ...newChannel(), name: 'twice', formula: 'a * 2' };
+    const over = { ...newChannel(), formula: 'twice + 1' };
+    const data = { ...EMPTY, records: [{ ...record!, channels: [...record!.channels, twice, over] }] };
+    expect(faultsOf(data).map(({ key, values }) => [key, values])).toEqual([
+      ['trace.fault.formula.channel', { name: 'twice' }],
+    ]);
+  });
 });
 
 describe('a download', () => {

@@ -92,6 +92,9 @@ export function channelName(channel: Channel): string {
   return channel.name.trim() || channel.variable.trim() || channel.formula.trim();
 }
 
+/** Whether the controller samples it; formulas are over what is sampled. */
+const isRecorded = ({ variable, formula }: Channel) => formula.trim() === '' && variable.trim() !== '';
+
 /** A record, or a variable of it. */
 export interface Node {
   record: number;
@@ -232,7 +235,7 @@ function channelFaults(record: TraceRecord, node: Node, channel: Channel): Fault
   const add = (field: string, key: FaultKey, values: Fault['values'] = {}) => found.push({ node, field, key, values });
   const at = node.channel ?? 0;
   if (channel.formula.trim() !== '') {
-    const fault = formulaFault(channel.formula, record.channels.filter((_, k) => k !== at).map(channelName));
+    const fault = formulaFault(channel.formula, record.channels.filter(isRecorded).map(channelName));
     if (fault) add('formula', fault.key, fault.values);
   } else if (channel.variable.trim() === '') add('variable', 'trace.fault.variable');
   else if (
@@ -300,9 +303,7 @@ export function recordedPart({ points, records }: TraceData): string {
     records.map(({ name, task, every, condition, trigger, buffer, channels }) => [
       [name, task, every, condition, buffer],
       [trigger.variable, trigger.edge, trigger.level, trigger.position],
-      channels.flatMap(({ variable, formula }) =>
-        formula.trim() === '' && variable.trim() !== '' ? [variable.trim()] : [],
-      ),
+      channels.filter(isRecorded).map(({ variable }) => variable.trim()),
     ]),
   ]);
 }

@@ -36,7 +36,7 @@ export interface TraceOnline {
   /** Of what is stored now. */
   title: () => string;
   endRecording: () => Promise<void>;
-  save: (format: ExportFormat, record: number) => Promise<void>;
+  save: (format: ExportFormat, record: number, formulas?: boolean) => Promise<void>;
   load: () => void;
 }
 
@@ -98,9 +98,9 @@ export function traceOnline(of: Of): TraceOnline {
       notify({ tone: 'ok', title: t('trace.stored', { title: stored }) });
       await Promise.all([look(), lookAtRecordings()]);
     },
-    save: async (format, record) => {
+    save: async (format, record, formulas = true) => {
       if (shown === null) return;
-      const path = withQuery(`${sourcePath(shown)}/export`, { format, record });
+      const path = withQuery(`${sourcePath(shown)}/export`, { format, record, formulas: String(formulas) });
       saveBlob(new Blob([await requestBytes(path, new AbortController().signal)]), `${name}.${format}`);
     },
     load: () => chooseFile('.trace', (file) => void guard(() => upload(file))),

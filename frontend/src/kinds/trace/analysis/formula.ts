@@ -1,7 +1,9 @@
 /**
  * Formula channels: an IEC expression over other channels, computed sample by sample in LREAL.
  *
- * TRUE is 1 and FALSE is 0; a gap of any channel is a gap of the result. Precedence is that of IEC 61131-3, table 71.
+ * The twin of the server's `traces/formula.py`: the same words, values and faults, by one table of cases
+ * (tests/traces/data). TRUE is 1 and FALSE is 0; a gap of any channel is a gap of the result. Precedence is that of
+ * IEC 61131-3, table 71; the values are those of IEEE 754.
  */
 
 export type FormulaFault = 'empty' | 'unexpected' | 'end' | 'function' | 'arguments' | 'tooDeep';
@@ -27,6 +29,9 @@ export interface Formula {
 type Node = (channels: ArrayLike<number>) => number;
 type Call = { least: number; most: number; of: (...values: number[]) => number };
 
+/** As IEEE 754 has it: ECMAScript alone has no value for 1 ** NaN, 1 ** Infinity and (-1) ** Infinity. */
+const power = (base: number, exponent: number) =>
+  base === 1 || (base === -1 && Math.abs(exponent) === Infinity) ? 1 : base ** exponent;
 const truth = (value: boolean) => (value ? 1 : 0);
 const one = (of: (value: number) => number): Call => ({ least: 1, most: 1, of });
 /** Names as IEC 61131-3 has them; SQR and LIMIT with its order MN, IN, MX. */
@@ -47,7 +52,7 @@ export const FUNCTIONS: Readonly<Record<string, Call>> = {
   CEIL: one(Math.ceil),
   SGN: one(Math.sign),
   ATAN2: { least: 2, most: 2, of: Math.atan2 },
-  EXPT: { least: 2, most: 2, of: (base, power) => base ** power },
+  EXPT: { least: 2, most: 2, of: power },
   MIN: { least: 2, most: 64, of: Math.min },
   MAX: { least: 2, most: 64, of: Math.max },
   LIMIT: { least: 3, most: 3, of: (low, value, high) => Math.min(Math.max(value, low), high) },
@@ -70,26 +75,34 @@ const LEVELS: readonly Readonly<Record<string, (a: number, b: number) => number>
   },
   { '+': (a, b) => a + b, '-': (a, b) => a - b },
   { '*': (a, b) => a * b, '/': (a, b) => a / b, MOD: (a, b) => a % b },
-  { '**': (a, b) => a ** b },
+  { '**': power },
 ];
 const WORDS = new Set(['OR', 'XOR', 'AND', 'MOD', 'NOT']);
-const MOST_DEPTH = 100;
+const MOST_DEPTH = 50;
 
 interface Token {
-  kind: 'number' | 'name' | 'sign' | 'end';
+  /** `other`: a character that no token begins with. */
+  kind: 'number' | 'name' | 'sign' | 'end' | 'other';
   text: string;
   at: number;
 }
 
-const NUMBER = /(?:16#[0-9A-Fa-f_]+|8#[0-7_]+|2#[01_]+|\d[\d_]*(?:\.\d[\d_]*)?(?:[eE][+-]?\d+)?)/y;
-const NAME = /[A-Za-z_]\w*(?:\^?(?:\s*\.\s*\w+|\s*\[[^\][]*(?:\[[^\]]*\][^\][]*)*\]))*\^?/y;
+const NUMBER = /(?:16#[0-9A-Fa-f][0-9A-Fa-f_]*|8#[0-7][0-7_]*|2#[01][01_]*|\d[\d_]*(?:\.\d[\d_]*)?(?:[eE][+-]?\d+)?)/y;
+const SPACE = String.raw`[ \t\n\r\f\v]*`;
+/** Letters of any script: names of channels are free. */
+const WORD = String.raw`[\p{L}\p{N}_]`;
+const NAME = new RegExp(
+  String.raw`[\p{L}\p{Nl}\p{No}_]${WORD}*` +
+    String.raw`(?:\^?(?:${SPACE}\.${SPACE}${WORD}+|${SPACE}\[[^\]\[]*(?:\[[^\]]*\][^\]\[]*)*\]))*\^?`,
+  'uy',
+);
 const SIGN = /\*\*|<=|>=|<>|[-+*/()<>=,&]/y;
 
 function tokens(text: string): Token[] {
   const found: Token[] = [];
   let at = 0;
   while (at < text.length) {
-    if (/\s/.test(text[at]!)) {
+    if (' \t\n\r\f\v'.includes(text[at]!)) {
       at += 1;
       continue;
     }
@@ -103,15 +116,16 @@ function tokens(text: string): Token[] {
       return { kind, text: pattern.exec(text)?.[0] };
     });
     const token = hit.find((each) => each.text !== undefined);
-    if (token?.text === undefined) throw new FormulaError('unexpected', at, text[at]!);
-    found.push({ kind: token.kind, text: token.text, at });
-    at += token.text.length;
+    const word = token?.text ?? String.fromCodePoint(text.codePointAt(at)!);
+    found.push({ kind: token?.kind ?? 'other', text: word, at });
+    at += word.length;
   }
   return [...found, { kind: 'end', text: '', at: text.length }];
 }
 
+const withoutSpaces = (name: string) => name.replace(/[ \t\n\r\f\v]+/g, '');
 /** As expressions are compared: without spaces, in capitals. */
-export const channelKey = (name: string) => name.replace(/\s+/g, '').toUpperCase();
+export const channelKey = (name: string) => withoutSpaces(name).toUpperCase();
 
 /** Reads a formula; throws `FormulaError` with the place of what is wrong. */
 export function parseFormula(text: string): Formula {
@@ -170,7 +184,7 @@ export function parseFormula(text: string): Formula {
     if (constant !== undefined) return () => constant;
     const key = channelKey(token.text);
     let index = channels.findIndex((each) => channelKey(each) === key);
-    if (index < 0) index = channels.push(token.text.replace(/\s+/g, '')) - 1;
+    if (index < 0) index = channels.push(withoutSpaces(token.text)) - 1;
     return (values) => values[index]!;
   };
   const call = (name: Token): Node => {
