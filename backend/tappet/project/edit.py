@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from itertools import chain
 from typing import Any
 
 from tappet.project.data import CodeData, Data
-from tappet.project.errors import InvalidDataError, NotPlaceableError
+from tappet.project.errors import InvalidDataError, NeededObjectError, NotPlaceableError
 from tappet.project.kind_registry import kind_of, kinds
 from tappet.project.model import APPLICATION, Project, ProjectObject, new_id
 from tappet.project.naming import normal_name, unique_name
@@ -21,6 +22,7 @@ from tappet.project.placement import (
     check_name,
     check_place,
     check_spelling,
+    in_scope_of,
     owner_of,
     proposed_name,
 )
@@ -64,7 +66,7 @@ def add_object(
         grown = _ordered(grown, added.id, index)
     for child in kinds()[kind].children:
         grown, _ = add_object(grown, added.id, child.kind, child.name)
-    return grown, grown.get(added.id)
+    return _with_companions(grown, added.id), grown.get(added.id)
 
 
 def change_data(project: Project, object_id: str, data: AnyData) -> Project:
@@ -117,7 +119,9 @@ def move_object(project: Project, object_id: str, parent_id: str | None, index: 
         moved = changed_object(item, parent_id=parent_id, index=end)
         project = _dense(_with(project, [moved]), old_parent, item.kind)
     last = len(project.siblings(parent_id, item.kind)) - 1
-    return _ordered(project, object_id, last if index is None else index)
+    there = _ordered(project, object_id, last if index is None else index)
+    left = [] if item.parent_id is None else in_scope_of(there, owner_of(there, item.parent_id))
+    return _with_companions(there, object_id, *(other.id for other in left))
 
 
 def copy_object(
@@ -156,15 +160,30 @@ def copy_object(
     grown = _with(project, copies)
     if index is not None:
         grown = _ordered(grown, top.id, index)
-    return grown, grown.get(top.id)
+    return _with_companions(grown, top.id), grown.get(top.id)
 
 
 def delete_object(project: Project, object_id: str) -> Project:
-    """Remove an object and all below it. Raises UnknownObjectError."""
-    item = project.get(object_id)
-    gone = {item.id} | {below.id for below in project.walk(item.id)}
-    kept = {key: value for key, value in project.objects.items() if key not in gone}
-    return _dense(replace(project, objects=kept), item.parent_id, item.kind)
+    """Remove an object and all below it. Raises UnknownObjectError, NeededObjectError."""
+    return delete_objects(project, [object_id])
+
+
+def delete_objects(project: Project, object_ids: Iterable[str]) -> Project:
+    """Remove objects and all below them.
+
+    Raises UnknownObjectError, and NeededObjectError if what stays needs one of them.
+    """
+    chosen = list(dict.fromkeys(object_ids))
+    tops = [one for one in chosen if not {above.id for above in project.ancestors(one)} & set(chosen)]
+    removed = []
+    for object_id in tops:
+        item = project.get(object_id)
+        removed.append(item)
+        gone = {item.id} | {below.id for below in project.walk(item.id)}
+        kept = {key: value for key, value in project.objects.items() if key not in gone}
+        project = _dense(replace(project, objects=kept), item.parent_id, item.kind)
+    _check_companions(project, removed)
+    return project
 
 
 def give_content(project: Project, then: ProjectObject) -> Project:
@@ -201,7 +220,7 @@ def restore_objects(
         waiting = [item for item in waiting if item.id not in found]
     end = len(project.siblings(top.parent_id, top.kind))
     restored[0] = changed_object(restored[0], index=end)
-    return _ordered(_with(project, restored), top.id, index)
+    return _with_companions(_ordered(_with(project, restored), top.id, index), top.id)
 
 
 def _with(project: Project, items: Iterable[ProjectObject]) -> Project:
@@ -224,6 +243,35 @@ def _ordered(project: Project, object_id: str, index: int) -> Project:
     siblings = [other for other in project.siblings(item.parent_id, item.kind) if other.id != object_id]
     siblings.insert(max(0, index), item)
     return _in_order(project, siblings)
+
+
+def _with_companions(project: Project, *object_ids: str) -> Project:
+    """The project with what the kinds of objects, and of those below them, want to stand beside them."""
+    for item in chain.from_iterable((project.get(one), *project.walk(one)) for one in object_ids):
+        companion = _companion_of(item)
+        owner = owner_of(project, item.parent_id)
+        if companion and owner and all(one.kind != companion for one in in_scope_of(project, owner)):
+            project, _ = add_object(project, owner.id, companion)
+    return project
+
+
+def _companion_of(item: ProjectObject) -> str:
+    kind = kind_of(item)
+    return "" if kind is None else kind.companion
+
+
+def _check_companions(project: Project, removed: Iterable[ProjectObject]) -> None:
+    """Raise NeededObjectError when objects that are gone were companions of some that stay."""
+    for item in removed:
+        owner = item.parent_id
+        if owner is None or owner not in project.objects:
+            continue
+        beside = list(in_scope_of(project, owner_of(project, owner)))
+        if any(other.kind == item.kind for other in beside):
+            continue
+        needs = next((other for other in beside if _companion_of(other) == item.kind), None)
+        if needs is not None:
+            raise NeededObjectError(f"'{item.name}' is needed by '{needs.name}'; delete that first")
 
 
 def _renamed(item: ProjectObject, name: str) -> ProjectObject:

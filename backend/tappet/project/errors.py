@@ -34,6 +34,12 @@ class NotPlaceableError(ProjectError):
     code = "not_placeable"
 
 
+class NeededObjectError(ProjectError):
+    """An object cannot be deleted as long as others need it."""
+
+    code = "needed_object"
+
+
 class InvalidDataError(ProjectError):
     """The data of an object do not fit its kind."""
 

@@ -251,6 +251,9 @@ class ObjectKind(Generic[D]):
     """The data hold a body in a language; that of a new object can be in any language that is offered."""
     children: tuple[Child, ...] = ()
     """Objects that come with a new one."""
+    companion: str = ""
+    """The kind of which one object stands below the owner as long as there are objects of this kind: it
+    comes with the first and is not deleted before the last."""
     compiled: Compiled[D] = field(default_factory=lambda: Compiled[D]())
     renamed: Callable[[D, str], D] | None = None
     """The data of an object that gets another name, where the name stands in them."""

@@ -5256,6 +5256,217 @@ export interface components {
             rms: number | null;
         };
         /**
+         * CncObject
+         * @description A CNC program: a path for several axes, as DIN 66025 text or table.
+         */
+        CncObject: {
+            data: components["schemas"]["CncProgramData"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "cnc";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
+        };
+        /**
+         * CncPosition
+         * @description A position of all axes, in their units.
+         */
+        CncPosition: {
+            /**
+             * A
+             * @default 0
+             */
+            a: number;
+            /**
+             * B
+             * @default 0
+             */
+            b: number;
+            /**
+             * C
+             * @default 0
+             */
+            c: number;
+            /**
+             * P
+             * @default 0
+             */
+            p: number;
+            /**
+             * Q
+             * @default 0
+             */
+            q: number;
+            /**
+             * U
+             * @default 0
+             */
+            u: number;
+            /**
+             * V
+             * @default 0
+             */
+            v: number;
+            /**
+             * W
+             * @default 0
+             */
+            w: number;
+            /**
+             * X
+             * @default 0
+             */
+            x: number;
+            /**
+             * Y
+             * @default 0
+             */
+            y: number;
+            /**
+             * Z
+             * @default 0
+             */
+            z: number;
+        };
+        /**
+         * CncProgramData
+         * @description A CNC program.
+         */
+        CncProgramData: {
+            /**
+             * Acceleration
+             * @description Of elements without E [u/s²].
+             * @default 100
+             */
+            acceleration: number;
+            /**
+             * Compile Mode
+             * @description What is made of it: SMC_CNC_REF, SMC_OUTQUEUE, or a file in the controller (CNC-11).
+             * @default cnc_ref
+             * @enum {string}
+             */
+            compile_mode: "cnc_ref" | "out_queue" | "file";
+            /**
+             * Deceleration
+             * @description Of elements without E- [u/s²].
+             * @default 100
+             */
+            deceleration: number;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build?: boolean;
+            /**
+             * Implementation
+             * @description The program, DIN 66025, a block a line.
+             * @default
+             */
+            implementation: string;
+            /**
+             * Offline Values
+             * @default []
+             */
+            offline_values: components["schemas"]["OfflineValue"][];
+            /**
+             * Queue Size
+             * @description Elements that path preprocessing looks ahead.
+             * @default 100
+             */
+            queue_size: number;
+            /** @description Where the first element starts. */
+            start: components["schemas"]["CncPosition"];
+            /**
+             * Step Suppression
+             * @description Blocks that begin with / are left out (CNC-81).
+             * @default false
+             */
+            step_suppression: boolean;
+            /**
+             * Velocity
+             * @description Of elements without F [u/s].
+             * @default 0
+             */
+            velocity: number;
+            /**
+             * View
+             * @description The view that opens with the object (CNC-10).
+             * @default text
+             * @enum {string}
+             */
+            view: "text" | "table";
+        };
+        /**
+         * CncSettingsData
+         * @description Settings of the CNC programs of an application.
+         */
+        CncSettingsData: {
+            /**
+             * Columns
+             * @description Columns of the table editor in their order; the type of an element is always the first.
+             */
+            columns: components["schemas"]["TableColumn"][];
+        };
+        /**
+         * CncSettingsObject
+         * @description What all CNC programs of an application share.
+         */
+        CncSettingsObject: {
+            data: components["schemas"]["CncSettingsData"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "cnc_settings";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
+        };
+        /**
          * CodeSpot
          * @description Where the program is. Object and part are known for what was built from a project.
          */
@@ -8011,7 +8222,7 @@ export interface components {
          * ObjectDetail
          * @description An object with its data, whose shape depends on `kind`.
          */
-        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["CamObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["RecipeManagerObject"] | components["schemas"]["RecipeDefinitionObject"] | components["schemas"]["TraceObject"] | components["schemas"]["SceneObject"] | components["schemas"]["FlightRecordingObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
+        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["CamObject"] | components["schemas"]["CncObject"] | components["schemas"]["CncSettingsObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["RecipeManagerObject"] | components["schemas"]["RecipeDefinitionObject"] | components["schemas"]["TraceObject"] | components["schemas"]["SceneObject"] | components["schemas"]["FlightRecordingObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ObjectMove
          * @description A new name or place; what is left out stays. A new parent without index: the end of its children.
@@ -8111,6 +8322,22 @@ export interface components {
         ObjectsToDelete: {
             /** Object Ids */
             object_ids: string[];
+        };
+        /**
+         * OfflineValue
+         * @description What a variable counts as where no controller runs (CNC-17).
+         */
+        OfflineValue: {
+            /**
+             * Name
+             * @description The variable, as it stands between the dollar signs.
+             */
+            name: string;
+            /**
+             * Value
+             * @default 0
+             */
+            value: number;
         };
         OnlineClientMessage: components["schemas"]["Subscribe"] | components["schemas"]["Unsubscribe"] | components["schemas"]["Speak"] | components["schemas"]["LookBack"];
         /**
@@ -10811,6 +11038,22 @@ export interface components {
              * @description Function or program that is called then.
              */
             function: string;
+        };
+        /**
+         * TableColumn
+         * @description A column of the table editor.
+         */
+        TableColumn: {
+            /**
+             * Name
+             * @enum {string}
+             */
+            name: "n" | "x" | "y" | "z" | "i" | "j" | "k" | "r" | "t" | "f" | "acceleration" | "deceleration" | "d" | "s" | "a" | "b" | "c" | "p" | "q" | "u" | "v" | "w" | "ff" | "ef" | "l" | "o" | "h" | "comment";
+            /**
+             * Visible
+             * @default true
+             */
+            visible: boolean;
         };
         /**
          * TakenDifference

@@ -122,7 +122,8 @@ def _encode_object(item: ProjectObject, place: str, files: dict[str, bytes]) -> 
     entry.texts = _split_texts(data, form, place, files) or None
     if form.optional and known:
         defaults = kinds()[item.kind].data().model_dump(mode="json", exclude_none=True)
-        data = {} if data == defaults else data
+        apart = entry.texts or {}
+        data = {} if data == {key: value for key, value in defaults.items() if key not in apart} else data
     if data or not form.optional:
         files[f"{place}.{item.kind}.json"] = write_json(data, flat=form.flat)
     return entry

@@ -359,15 +359,11 @@ class Store(HistoryReader):
     def delete(self, project_id: str, author: str, *object_ids: str, comment: str = "") -> None:
         """Delete objects and all below them as one change; their revisions stay.
 
-        Raises UnknownObjectError.
+        Raises UnknownObjectError, NeededObjectError.
         """
 
         def without(project: Project) -> tuple[Project, None]:
-            wanted, chosen = project, set(object_ids)
-            for object_id in object_ids:
-                if chosen.isdisjoint(owner.id for owner in project.ancestors(object_id)):
-                    wanted = edit.delete_object(wanted, object_id)
-            return wanted, None
+            return edit.delete_objects(project, object_ids), None
 
         self.edit(project_id, author, "delete", without, comment)
 
