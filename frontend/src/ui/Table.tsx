@@ -41,7 +41,8 @@ export function Table<Item>(props: TableProps<Item>) {
     getScrollElement: () => scroll.current,
     estimateSize: () => ROW_HEIGHT,
     overscan: 12,
-    scrollPaddingStart: HEAD_HEIGHT,
+    // The head stands before the rows in the content and covers none of them.
+    scrollPaddingEnd: HEAD_HEIGHT,
   });
 
   const onKeyDown = (event: KeyboardEvent) => {

@@ -26,7 +26,8 @@ export function Grid(props: GridProps) {
     getScrollElement: () => scroll.current,
     estimateSize: () => ROW_HEIGHT,
     overscan: 10,
-    scrollPaddingStart: ROW_HEIGHT,
+    // The head takes a row of the view, and stands before the rows in the content: it covers none of them.
+    scrollPaddingEnd: ROW_HEIGHT,
     // Rows beyond the screen are there already: no need to draw within the event of the wheel.
     useFlushSync: false,
   });
