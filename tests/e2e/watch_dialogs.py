@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from .conftest import Server
 from .every_dialog import tour
 from .ui import Ui
-from .workbench import open_panel, tree_item
+from .workbench import log_in, open_panel, tree_item, watch
 
 
 @tour("watch.newList", "watch.duplicateList", "watch.renameList", "watch.deleteTitle")
@@ -35,3 +35,15 @@ def watch_lists(ui: Ui, _server: Server) -> Iterator[str]:
     table.get_by_role("row").filter(has_text="GVL_IO.xStartButton").wait_for()
     ui.command("watch.deleteList")
     yield "watch.deleteTitle"
+
+
+@tour("online.goToIndex")
+def array_index(ui: Ui, _server: Server) -> Iterator[str]:
+    """Which element of an array to show."""
+    tree_item(ui.page, "PLC_PRG").click()
+    log_in(ui.page, ui.text("runtime.state.run"))
+    open_panel(ui.page, ui.text("watch.title", number="1"))
+    row = watch(ui.page, "GVL_Line.aRecipes")
+    row.get_by_role("gridcell").nth(1).click()
+    ui.page.keyboard.press("Control+g")
+    yield "online.goToIndex"

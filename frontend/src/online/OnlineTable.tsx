@@ -10,10 +10,12 @@ import {
   type ReactNode,
   type Ref,
 } from 'react';
+import { ArrowDownToLine } from 'lucide-react';
 import { useText } from '@/i18n';
 import { Grid, type GridColumn, type GridEditing, type GridHandle } from '@/ui/grid/Grid';
 import { useGridSelection, type GridSelection } from '@/ui/grid/useGridSelection';
 import type { MenuEntry } from '@/ui/Menu';
+import { guard } from '@/ui/notices';
 import { ContextMenu } from '@/ui/Menu';
 import type { OnlineSession } from '@/workbench/onlineSession';
 import { fillTransfer } from '@/workbench/expressionDrag';
@@ -27,6 +29,8 @@ import { refusePast } from './past/refuse';
 import { symbolKey } from './rowMenu';
 import { togglePrepared } from './toggle';
 import { flatten, isExpandable, isVariable, watchedExpressions, type OnlineRoot, type OnlineRow } from './treeRows';
+import { arrayAround } from './indexJump';
+import { useIndexJump } from './useIndexJump';
 import { useItems } from './useItems';
 import { useChildren } from './useChildren';
 import { useWatched } from './useLive';
@@ -111,6 +115,15 @@ export function OnlineTable(props: OnlineTableProps) {
       }),
     [],
   );
+  const openAll = useCallback((keys: readonly string[]) => setOpen((before) => new Set([...before, ...keys])), []);
+  const { move } = selection;
+  const showRow = useCallback((row: number) => move({ row, column: 0 }, 'one'), [move]);
+  const askIndex = useIndexJump({ session, rows, open: openAll, show: showRow });
+  const arrayHere = () => (selection.cursor === null ? null : arrayAround(rows, selection.cursor.row));
+  const goToIndex = () => {
+    const array = arrayHere();
+    if (array !== null) void guard(() => askIndex(array));
+  };
   const columnOf = (cell: { column: number }) => columns[cell.column]?.id;
   const edit = (cell: GridEditing) => {
     const row = rows[cell.row];
@@ -129,7 +142,9 @@ export function OnlineTable(props: OnlineTableProps) {
     const cursor = selection.cursor;
     const row = cursor === null ? undefined : rows[cursor.row];
     if (symbolKey(event, row)) return true;
-    if (isCopyKey(event) && chosen.length > 0) return (event.preventDefault(), copyChosen(runtimeId, chosen), true);
+    if (isControl(event, 'c') && chosen.length > 0)
+      return (event.preventDefault(), copyChosen(runtimeId, chosen), true);
+    if (isControl(event, 'g')) return (event.preventDefault(), event.stopPropagation(), goToIndex(), true);
     if (cursor === null || row === undefined) return false;
     if (columnOf(cursor) === 'expression' && isExpandable(row)) {
       if (event.key === 'ArrowRight' && row.open === false)
@@ -152,7 +167,17 @@ export function OnlineTable(props: OnlineTableProps) {
       disabledReason: runtimeId === null ? t('reason.notLoggedIn') : fixed ? t('online.nothingToPrepare') : null,
       run: () => cursor && edit({ ...cursor, column: columns.findIndex((column) => column.id === 'prepared') }),
     };
-    return props.menu === undefined ? [] : [prepareEntry, ...props.menu(chosen)];
+    const indexEntry: MenuEntry = {
+      kind: 'item',
+      key: 'index',
+      text: t('online.goToIndexMore'),
+      icon: ArrowDownToLine,
+      shortcut: 'Ctrl+G',
+      disabledReason:
+        runtimeId === null ? t('reason.notLoggedIn') : arrayHere() === null ? t('online.index.choose') : null,
+      run: goToIndex,
+    };
+    return props.menu === undefined ? [] : [prepareEntry, indexEntry, ...props.menu(chosen)];
   };
   const lost = session !== null && session.lostSince !== null;
 
@@ -238,8 +263,8 @@ export function OnlineTable(props: OnlineTableProps) {
   );
 }
 
-function isCopyKey({ key, ctrlKey, metaKey, shiftKey, altKey }: KeyboardEvent): boolean {
-  return key.toLowerCase() === 'c' && (ctrlKey || metaKey) && !shiftKey && !altKey;
+function isControl({ key, ctrlKey, metaKey, shiftKey, altKey }: KeyboardEvent, letter: string): boolean {
+  return key.toLowerCase() === letter && (ctrlKey || metaKey) && !shiftKey && !altKey;
 }
 
 interface OnScreenHandle {

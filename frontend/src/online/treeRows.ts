@@ -56,13 +56,16 @@ export function flatten(
     const opened = expandable && open.has(item.key);
     rows.push({ ...item, depth, root, open: expandable ? opened : undefined });
     if (!opened) return;
-    for (const child of children.get(item.expression.toUpperCase()) ?? []) {
-      const path = wholeArray(item.expression) + child.path.slice(child.path.length - suffixLength(child));
-      add({ ...child, key: `${item.key}/${child.name}`, expression: path, label: child.name }, depth + 1, root);
-    }
+    for (const child of children.get(item.expression.toUpperCase()) ?? []) add(childOf(item, child), depth + 1, root);
   };
   roots.forEach((root, index) => add(root, 0, index));
   return rows;
+}
+
+/** What lies below a row, as a row. */
+export function childOf({ key, expression }: Pick<OnlineRoot, 'key' | 'expression'>, child: SymbolChild) {
+  const path = wholeArray(expression) + child.path.slice(child.path.length - suffixLength(child));
+  return { ...child, key: `${key}/${child.name}`, expression: path, label: child.name };
 }
 
 /** `.name` or `[index]` at the end of the child's path. */
