@@ -116,12 +116,16 @@ class Program:
         name, value = self.random.choice(["one", "two"]), self._expression(body)
         return ("block", self._add(depth, f"{name}(a := {_text(value)});"), name, value)
 
-    def _if(self, body: Body, depth: int, loops: int) -> Node:
+    def _if(self, body: Body, depth: int, loops: int, word: str = "IF") -> Node:
+        """Each ELSIF is a statement in the ELSE of the one before."""
         left, right = self._expression(body), self._expression(body)
-        line = self._add(depth, f"IF {_text(left)} > {_text(right)} THEN")
+        line = self._add(depth, f"{word} {_text(left)} > {_text(right)} THEN")
         then: list[Node] = []
         otherwise: list[Node] = []
         self._statements(body, then, 2, depth + 1, loops)
+        if self.random.random() < 0.4:
+            otherwise.append(self._if(body, depth, loops, "ELSIF"))
+            return ("if", line, left, right, then, otherwise)
         self._add(depth, "ELSE")
         self._statements(body, otherwise, 2, depth + 1, loops)
         self._add(depth, "END_IF")

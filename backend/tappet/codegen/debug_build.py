@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from tappet.codegen.compile_options import OptimiseOptions
@@ -19,7 +20,7 @@ from tappet.core.program import Program, path_of
 from tappet.lang import ast
 from tappet.lang.source import NOWHERE, Scope
 from tappet.lang.symbols import PouSymbol, VarSymbol
-from tappet.lang.walk import bodies, own_expressions, statements
+from tappet.lang.walk import bodies, expressions, own_expressions, statements
 
 MOST_NAMES = 8
 """Variables of a statement whose values flow control keeps; FLOW_RESULT has room for so many."""
@@ -135,8 +136,8 @@ def _declared(pou: PouSymbol) -> list[VarSymbol]:
 
 
 def _heads(pou: PouSymbol) -> dict[tuple[int, int], StatementHead]:
-    """Of each statement, by its place: the variables that it names, as its text does; some may have no single
-    value."""
+    """Of each statement and each condition of an ELSIF, by its place: the variables that it names, as its
+    text does; some may have no single value."""
     assert pou.pou is not None
     assert pou.source is not None
     lines = pou.source.text.split("\n")
@@ -145,24 +146,34 @@ def _heads(pou: PouSymbol) -> dict[tuple[int, int], StatementHead]:
         place = statement.span.line + 1, statement.span.column
         if place in found:
             continue  # what one place stands for, as the jump of a JMPC
-        named: dict[str, str] = {}
-        parts: set[int] = set()
-        first = statement.span.line
-        for e in own_expressions(statement):
-            if e.span != NOWHERE:
-                first = min(first, e.span.line)
-            if isinstance(e, ast.Index | ast.Member | ast.Deref):
-                parts.add(id(e.base))
-            if id(e) in parts or e.is_constant or not isinstance(e, _NAMED):
-                continue
-            span = e.span
-            if span.line == span.end_line and 0 <= span.line < len(lines):
-                text = lines[span.line][span.column : span.end_column].strip()
-                if text:
-                    named.setdefault(text.upper(), text)
-        head = first + 1, _head_line(statement)
-        found[place] = StatementHead(head, tuple(named.values())[:MOST_NAMES])
+        own, further = list(own_expressions(statement)), []
+        if isinstance(statement, ast.If):
+            (first, _), *later = statement.branches
+            own, further = list(expressions(first)), [condition for condition, _ in later]
+        begin = min([statement.span.line, *(e.span.line for e in own if e.span != NOWHERE)])
+        found[place] = StatementHead((begin + 1, _head_line(statement)), _names(own, lines))
+        for condition in further:
+            span = condition.span
+            head = span.line + 1, span.end_line + 1
+            found[span.line + 1, span.column] = StatementHead(head, _names(expressions(condition), lines))
     return found
+
+
+def _names(among: Iterable[ast.Expr], lines: Sequence[str]) -> tuple[str, ...]:
+    """The variables among expressions, as the text writes them; outer expressions come before their parts."""
+    named: dict[str, str] = {}
+    parts: set[int] = set()
+    for e in among:
+        if isinstance(e, ast.Index | ast.Member | ast.Deref):
+            parts.add(id(e.base))
+        if id(e) in parts or e.is_constant or not isinstance(e, _NAMED):
+            continue
+        span = e.span
+        if span.line == span.end_line and 0 <= span.line < len(lines):
+            text = lines[span.line][span.column : span.end_column].strip()
+            if text:
+                named.setdefault(text.upper(), text)
+    return tuple(named.values())[:MOST_NAMES]
 
 
 def _head_line(statement: ast.Stmt) -> int:

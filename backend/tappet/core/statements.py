@@ -72,7 +72,8 @@ def _if(b: Body, s: ast.If) -> None:
         if number == 0:
             b.emit(ir.If(test, then, otherwise))
         else:
-            otherwise = [ir.Line(condition.span[0] + 1), ir.If(test, then, otherwise)]
+            span = condition.span
+            otherwise = [ir.Line(span[0] + 1, span[1], True, span[2] + 1), ir.If(test, then, otherwise)]
 
 
 def _case(b: Body, s: ast.Case) -> None:

@@ -16,7 +16,8 @@ class Line(Stmt):
     line: int
     column: int = 0
     statement: bool = False
-    """A statement of the body begins here: where the instrumented variant may halt."""
+    """A statement of the body or the condition of an ELSIF begins here: where the instrumented variant may
+    halt."""
     end_line: int = 0
     """Last line of that statement."""
 
