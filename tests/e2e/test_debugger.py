@@ -100,6 +100,51 @@ def test_a_breakpoint_with_conditions_is_edited_in_its_dialog(debugged: Page, se
     expect(status_bar(page)).to_contain_text("running")
 
 
+def test_all_breakpoints_are_disabled_and_enabled(debugged: Page) -> None:
+    """From the keyboard, the bar of the list, its menu, and the Debug menu, which fits into the window."""
+    page = debugged
+    for line in (CALL, NEXT):
+        go_to(page, line)
+        page.keyboard.press("F9")
+    expect(status_bar(page)).to_contain_text("halted: MainTask", timeout=60_000)
+    show_panel(page, "Breakpoints")
+    table = page.get_by_role("grid", name="Breakpoints")
+    boxes = table.get_by_role("checkbox")
+    expect(boxes).to_have_count(2)
+
+    def enabled(*expected: bool) -> None:
+        for at, wanted in enumerate(expected):
+            expect(boxes.nth(at)).to_be_checked(checked=wanted)
+
+    page.keyboard.press("Alt+Shift+F9")
+    enabled(False, False)
+    page.keyboard.press("F5")
+    expect(status_bar(page)).to_contain_text("running")
+    panel = page.locator("[data-panel-id=breakpoints]")
+    disable = panel.get_by_role("button", name="Disable All Breakpoints")
+    expect(disable).to_have_attribute("aria-disabled", "true")
+    row = table.get_by_role("row").filter(has_text="PLC_PRG").first
+    row.get_by_role("gridcell").nth(1).click()
+    page.keyboard.press("Space")
+    enabled(True, False)
+    row.get_by_role("gridcell").nth(1).click(button="right")
+    page.get_by_role("menuitem", name="Disable breakpoint").click()
+    enabled(False, False)
+    row.get_by_role("gridcell").nth(1).click(button="right")
+    page.get_by_role("menuitem", name="Enable All Breakpoints").click()
+    enabled(True, True)
+    expect(status_bar(page)).to_contain_text("halted: MainTask")
+    disable.click()
+    enabled(False, False)
+    page.get_by_role("menuitem", name=re.compile("^Debug")).click()
+    menu = page.get_by_role("menu")
+    assert menu.evaluate("menu => menu.scrollHeight <= menu.clientHeight"), "it scrolls"
+    page.get_by_role("menuitem", name="Remove All Breakpoints").click()
+    expect(boxes).to_have_count(0)
+    page.keyboard.press("F5")
+    expect(status_bar(page)).to_contain_text("running")
+
+
 def test_a_variable_halts_the_program_when_it_changes(debugged: Page) -> None:
     """From the menu of a watch list, of the declaration and of the text."""
     page = debugged

@@ -33,11 +33,13 @@ nHalf := nStep / 2;
 nTemp := nHalf + 5;
 IF xNever THEN
     nHalf := 0;
+ELSIF nStep > 2000 THEN
+    nHalf := 1;
 ELSE
     nHalf := 7;
 END_IF
 Instructions();"""
-EXECUTED = [1, 2, 3, 4, 5, 8, 10]
+EXECUTED = [1, 2, 3, 4, 5, 7, 10, 12]
 
 
 @pytest.fixture
@@ -92,13 +94,14 @@ def test_executed_lines_are_tinted_and_have_their_values(flow: Page) -> None:
     seen = set()
 
     def three_moments() -> bool:
-        copied, halved, shown = values(page, 2), values(page, 3), values(page, 8)
+        copied, halved, shown = values(page, 2), values(page, 3), values(page, 10)
         if {"nHalf", "nStep"} <= copied.keys():
             assert copied["nHalf"] == copied["nStep"], "after its line, not at the end of the cycle"
             seen.add(copied["nStep"])
         if {"nHalf", "nStep"} <= halved.keys():
             assert halved["nHalf"] == halved["nStep"] // 2
         assert shown.get("nHalf", 7) == 7
+        assert 0 < values(page, 7).get("nStep", 1) <= 1000
         return len(seen) > 2
 
     until(page, three_moments)

@@ -140,7 +140,7 @@ def test_an_exception_opens_the_bar_and_the_cycle_before_is_a_step_away(page: Pa
 def test_a_recording_is_kept_looked_into_and_replayed(page: Page, server: Server) -> None:
     _to_the_fault(page)
     with answer_to(page, "/recordings") as answer:
-        choose_menu(page, "Debug", "Save Past Cycles")
+        choose_menu(page, "Debug", "Go Through Past Cycles", "Save Past Cycles")
     assert answer.value.ok, answer.value.text()
     tab = page.locator(".dv-tab").filter(has_text="Recording 20")
     expect(tab).to_be_visible()
@@ -243,7 +243,7 @@ def test_the_3d_view_shows_the_cycle_too(page: Page, server: Server) -> None:
 def test_the_3d_view_of_a_saved_recording(page: Page, server: Server) -> None:
     _to_the_fault(page)
     with answer_to(page, "/recordings") as answer:
-        choose_menu(page, "Debug", "Save Past Cycles")
+        choose_menu(page, "Debug", "Go Through Past Cycles", "Save Past Cycles")
     assert answer.value.ok, answer.value.text()
     page.keyboard.press("Control+F8")
     expect(status_bar(page).get_by_text("Offline")).to_be_visible()

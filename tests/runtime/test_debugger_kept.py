@@ -52,6 +52,35 @@ def test_they_come_back_disabled_after_a_restart(tmp_path: Path) -> None:
         plc.close()
 
 
+def test_all_are_enabled_and_disabled_at_once(tmp_path: Path) -> None:
+    """As one does after a restart; hits go on counting, and it is kept as it is."""
+    plc = loaded(TEXT, plc=SoftPlc(tmp_path))
+    first = add(plc, 5)
+    plc.debugger.add(replace(at_line(6), enabled=False))
+    plc.start()
+    halted(plc)
+    state = plc.debugger.enable(False)
+    assert [one.order.enabled for one in state.breakpoints] == [False, False]
+    assert state.halted, "what is halted stays so"
+    plc.debugger.control("continue")
+    assert not plc.debugger.state().active
+    state = plc.debugger.enable(True)
+    assert [one.order.enabled for one in state.breakpoints] == [True, True]
+    assert halted(plc).halted[0].breakpoint_id == first.id
+    assert plc.debugger.state().breakpoints[0].hit_count == 2
+    plc.close()
+    plc = SoftPlc(tmp_path)
+    try:
+        assert [one.order.enabled for one in plc.debugger.state().breakpoints] == [False, False]
+        state = plc.debugger.enable(True)
+        assert [one.order.enabled for one in state.breakpoints] == [True, True]
+        loaded(TEXT, plc=plc)
+        plc.start()
+        assert halted(plc).halted[0].breakpoint_id == state.breakpoints[0].id
+    finally:
+        plc.close()
+
+
 def test_none_are_left_when_all_are_removed(tmp_path: Path) -> None:
     plc = SoftPlc(tmp_path)
     plc.debugger.add(ORDERS[0])

@@ -2386,7 +2386,11 @@ export interface paths {
             cookie?: never;
         };
         get?: never;
-        put?: never;
+        /**
+         * Debug Enable Breakpoints
+         * @description Enable or disable all breakpoints at once; their hits go on counting.
+         */
+        put: operations["debug_enable_breakpoints"];
         /**
          * Debug Add Breakpoint
          * @description Set a breakpoint at a line or element, or on the value of a variable.
@@ -6303,6 +6307,13 @@ export interface components {
              * @default true
              */
             visible: boolean | components["schemas"]["Threshold"];
+        };
+        /**
+         * EnableBreakpoints
+         * @description Enable or disable all breakpoints at once; their hits go on counting.
+         */
+        EnableBreakpoints: {
+            enabled: boolean;
         };
         /**
          * Encoder
@@ -18436,6 +18447,50 @@ export interface operations {
             cookie?: never;
         };
         requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DebugState"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    debug_enable_breakpoints: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["EnableBreakpoints"];
+            };
+        };
         responses: {
             /** @description Successful Response */
             200: {

@@ -10,6 +10,8 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from tappet.codegen.debug_code import DebugCode
 from tappet.codegen.package import PackageError
 from tappet.codegen.values import Value
@@ -266,6 +268,15 @@ class Debugger:
             self._keep()
             self._changed()
             return wanted.shown(variant)
+
+    def enable(self, enabled: bool) -> DebugState:
+        """Enable or disable all breakpoints; their hits go on counting."""
+        with self._lock:
+            for wanted in self._shown():
+                wanted.order = replace(wanted.order, enabled=enabled)
+            self._keep()
+            self._changed()
+            return self.state()
 
     def remove(self, number: int | None) -> None:
         """Remove a breakpoint; all with None."""

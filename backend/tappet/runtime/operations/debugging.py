@@ -148,6 +148,23 @@ class ChangeBreakpoint(Operation[Breakpoint], frozen=True):
             return plc.debugger.change(self.id, self.breakpoint)
 
 
+class EnableBreakpoints(Operation[DebugState], frozen=True):
+    """Enable or disable all breakpoints at once; their hits go on counting."""
+
+    op: ClassVar[str] = "debug_enable_breakpoints"
+    rest: ClassVar[Rest | None] = _act(
+        "PUT",
+        "/breakpoints",
+        lambda order: Fact("breakpoints-enabled" if order.enabled else "breakpoints-disabled"),
+        variant=True,
+    )
+    enabled: bool
+
+    def run(self, plc: SoftPlc) -> DebugState:
+        """Halted tasks stay halted."""
+        return plc.debugger.enable(self.enabled)
+
+
 class RemoveBreakpoint(Operation[None], frozen=True):
     """Remove a breakpoint."""
 

@@ -11,7 +11,7 @@ import {
   StepBack,
   StepForward,
 } from 'lucide-react';
-import { contextChanged, menuGroup, registerCommands, type Command, type Enablement } from '@/workbench/commands';
+import { contextChanged, registerCommands, type Command, type Enablement } from '@/workbench/commands';
 import { application, connected, engineer, online, there, when, type Condition } from '@/workbench/conditions';
 import type { CommandContext } from '@/workbench/context';
 import { jumpToFrame } from '@/workbench/online/exception';
@@ -68,20 +68,20 @@ const stepBack: Command = {
   run: (context) => stepBy(context, -1),
 };
 
-const commands = menuGroup(
-  'debug',
-  '5_past',
-  {
-    id: 'past.bar',
-    title: 'past.bar',
-    icon: History,
-    keys: ['Ctrl+Alt+H'],
-    checked: (context) => timeBar(context.online?.runtimeId) !== null,
-    enabled: reachable,
-    run: async (context) => {
-      if (await opened(context)) await closeTimeBar(context.online!.runtimeId);
-    },
+const bar: Command = {
+  id: 'past.bar',
+  title: 'past.bar',
+  icon: History,
+  keys: ['Ctrl+Alt+H'],
+  menu: { menu: 'debug', group: '5_past', order: 0 },
+  checked: (context) => timeBar(context.online?.runtimeId) !== null,
+  enabled: reachable,
+  run: async (context) => {
+    if (await opened(context)) await closeTimeBar(context.online!.runtimeId);
   },
+};
+
+const moves: Omit<Command, 'menu'>[] = [
   {
     id: 'past.stepForward',
     title: 'past.stepForward',
@@ -144,9 +144,14 @@ const commands = menuGroup(
     enabled: when(online, open),
     run: onBar(closeTimeBar),
   },
-);
+];
+
+const commands = moves.map((command, at): Command => ({
+  ...command,
+  menu: { menu: 'debug', group: '5_past', order: at + 1, submenu: 'past.menu' },
+}));
 
 export function registerPastCommands(): void {
-  registerCommands([stepBack, ...commands]);
+  registerCommands([stepBack, bar, ...commands]);
   useTimeBars.subscribe(contextChanged);
 }

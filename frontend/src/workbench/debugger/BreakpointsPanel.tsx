@@ -1,4 +1,4 @@
-import { CircleDot, CirclePlus, LogIn, Pencil, Trash2, TriangleAlert } from 'lucide-react';
+import { CircleDot, CirclePlus, CornerDownRight, LogIn, Pencil, Trash2, TriangleAlert } from 'lucide-react';
 import { useMemo, useState, type ReactNode } from 'react';
 import { useObjects } from '@/api/queries';
 import type { Breakpoint } from '@/api/types';
@@ -7,11 +7,16 @@ import { useProject } from '@/project/openProject';
 import { objectPath } from '@/project/tree';
 import { Button, IconButton } from '@/ui/Button';
 import { Empty } from '@/ui/Empty';
+import { ContextMenu, type MenuEntry } from '@/ui/Menu';
 import { guard } from '@/ui/notices';
 import { Panel, PanelBar, PanelRest } from '@/ui/Panel';
 import { Table } from '@/ui/Table';
 import type { Column } from '@/ui/table';
+import { useRegistry } from '../commands';
+import { commandContext } from '../context';
+import { entriesOf } from '../frame/menuEntries';
 import { runCommand } from '../run';
+import { useCommandContext } from '../useCommandContext';
 import { changeBreakpoint, goToSpot, removeBreakpoint } from './acts';
 import { editBreakpoint, newDataBreakpoint } from './BreakpointDialog';
 import styles from './Debugger.module.css';
@@ -24,12 +29,22 @@ function hitsText({ order: { hits } }: Breakpoint, t: typeof text): string {
   return mode === 'always' ? '' : t(`debugger.hits.${mode}`, { count: hits?.count ?? 1 });
 }
 
+const FOR_ALL = ['debug.enableBreakpoints', 'debug.disableBreakpoints', 'debug.removeBreakpoints'];
+
+const isEnabled = ({ order }: Breakpoint) => order.enabled ?? true;
+
+function enable(runtimeId: string, one: Breakpoint, enabled: boolean): void {
+  void guard(() => changeBreakpoint(runtimeId, one.id, { ...one.order, enabled }));
+}
+
 /** All breakpoints of the controller: they are the same for everybody who is logged in to it. */
 export default function BreakpointsPanel() {
   const t = useText();
   const projectId = useProject((state) => state.projectId);
   const { data: objects } = useObjects(projectId);
   const looked = useDebugged();
+  const context = useCommandContext();
+  const commands = useRegistry((state) => state.commands);
   const [selected, setSelected] = useState<string | null>(null);
   const runtimeId = looked?.runtimeId;
   const breakpoints = looked?.debugged?.state.breakpoints ?? [];
@@ -52,11 +67,8 @@ export default function BreakpointsPanel() {
             <input
               type="checkbox"
               aria-label={t('debugger.enabled')}
-              checked={one.order.enabled ?? true}
-              onChange={(event) => {
-                const order = { ...one.order, enabled: event.target.checked };
-                if (runtimeId !== undefined) void guard(() => changeBreakpoint(runtimeId, one.id, order));
-              }}
+              checked={isEnabled(one)}
+              onChange={(event) => runtimeId !== undefined && enable(runtimeId, one, event.target.checked)}
             />
             <span className={styles.dot} data-look={lookOf(one)} aria-hidden />
           </span>
@@ -135,6 +147,46 @@ export default function BreakpointsPanel() {
         focus,
       );
   };
+  const entries = (): MenuEntry[] => {
+    if (chosen === undefined) return entriesOf(FOR_ALL, commands, commandContext());
+    const turned = !isEnabled(chosen);
+    return [
+      {
+        kind: 'item',
+        key: 'go',
+        text: t('debugger.goTo'),
+        icon: CornerDownRight,
+        shortcut: t('messages.enterKey'),
+        disabledReason: chosen.order.kind === 'data' ? t('debugger.reason.noPlace') : null,
+        run: () => go(chosen, true),
+      },
+      {
+        kind: 'item',
+        key: 'edit',
+        text: t('debugger.editDialog'),
+        icon: Pencil,
+        shortcut: 'F2',
+        run: () => void editBreakpoint(runtimeId, chosen),
+      },
+      {
+        kind: 'item',
+        key: 'enable',
+        text: t(turned ? 'debugger.enable' : 'debugger.disable'),
+        shortcut: t('debugger.spaceKey'),
+        run: () => enable(runtimeId, chosen, turned),
+      },
+      {
+        kind: 'item',
+        key: 'remove',
+        text: t('debugger.remove'),
+        icon: Trash2,
+        shortcut: 'Del',
+        run: () => remove(chosen),
+      },
+      { kind: 'line', key: 'all' },
+      ...entriesOf(FOR_ALL, commands, commandContext()),
+    ];
+  };
   return (
     <Panel>
       <PanelBar>
@@ -158,24 +210,45 @@ export default function BreakpointsPanel() {
           disabledReason={noChoice}
           onClick={() => chosen && remove(chosen)}
         />
+        {entriesOf(FOR_ALL, commands, context).map(
+          (entry) =>
+            entry.kind === 'item' &&
+            entry.icon && (
+              <IconButton
+                key={entry.key}
+                small
+                icon={entry.icon}
+                label={entry.text}
+                shortcut={entry.shortcut}
+                disabledReason={entry.disabledReason}
+                onClick={entry.run}
+              />
+            ),
+        )}
       </PanelBar>
-      <PanelRest>
-        <Table
-          label={t('panel.breakpoints')}
-          items={breakpoints}
-          columns={columns}
-          keyOf={({ id }) => String(id)}
-          selected={selected}
-          onSelect={(one) => setSelected(one === null ? null : String(one.id))}
-          onOpen={(one) => go(one, true)}
-          onShow={(one) => go(one, false)}
-          onKey={(event, one) => {
-            if (event.key === 'Delete' && one) remove(one);
-            else if (event.key === 'F2' && one) void editBreakpoint(runtimeId, one);
-          }}
-          empty={<Empty icon={CircleDot} title={t('debugger.none')} text={t('debugger.noneText')} />}
-        />
-      </PanelRest>
+      <ContextMenu entries={entries}>
+        <PanelRest>
+          <Table
+            label={t('panel.breakpoints')}
+            items={breakpoints}
+            columns={columns}
+            keyOf={({ id }) => String(id)}
+            selected={selected}
+            onSelect={(one) => setSelected(one === null ? null : String(one.id))}
+            onOpen={(one) => go(one, true)}
+            onShow={(one) => go(one, false)}
+            onKey={(event, one) => {
+              if (event.key === 'Delete' && one) remove(one);
+              else if (event.key === 'F2' && one) void editBreakpoint(runtimeId, one);
+              else if (event.key === ' ' && one) {
+                event.preventDefault();
+                enable(runtimeId, one, !isEnabled(one));
+              }
+            }}
+            empty={<Empty icon={CircleDot} title={t('debugger.none')} text={t('debugger.noneText')} />}
+          />
+        </PanelRest>
+      </ContextMenu>
     </Panel>
   );
 }

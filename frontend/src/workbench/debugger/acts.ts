@@ -53,6 +53,13 @@ export async function removeBreakpoint(runtimeId: string, id: number): Promise<v
   await refreshDebugger(runtimeId);
 }
 
+export async function enableBreakpoints(runtimeId: string, enabled: boolean): Promise<void> {
+  const state = await compiled(runtimeId, () =>
+    api.put('/api/v1/runtimes/{runtime_id}/debug/breakpoints', { ...at(runtimeId), body: { enabled } }),
+  );
+  debugStateRead(runtimeId, state);
+}
+
 export async function removeBreakpoints(runtimeId: string): Promise<void> {
   await api.delete('/api/v1/runtimes/{runtime_id}/debug/breakpoints', at(runtimeId));
   await refreshDebugger(runtimeId);

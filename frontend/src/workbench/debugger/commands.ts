@@ -1,11 +1,22 @@
 /** Commands of the debugger that need no place in a text; those that do are in `editors/online`. */
-import { ArrowDownToDot, ArrowUpFromDot, CircleX, Pause, Play, Redo2, StepForward, Workflow } from 'lucide-react';
+import {
+  ArrowDownToDot,
+  ArrowUpFromDot,
+  CircleCheck,
+  CircleSlash,
+  CircleX,
+  Pause,
+  Play,
+  Redo2,
+  StepForward,
+  Workflow,
+} from 'lucide-react';
 import { contextChanged, menuGroup, registerCommands, type Command, type Enablement } from '../commands';
 import { connected, engineer, live, online, when } from '../conditions';
 import type { CommandContext } from '../context';
 import type { TextKey } from '@/i18n';
 import { runCommand } from '../run';
-import { control, removeBreakpoints, setDebugSettings, type DebugSettings } from './acts';
+import { control, enableBreakpoints, removeBreakpoints, setDebugSettings, type DebugSettings } from './acts';
 import { hasFlow, switchFlow, useFlow } from './flow';
 import { useDebugger } from './state';
 
@@ -22,6 +33,16 @@ const running = (context: CommandContext): Enablement => {
 };
 const anyBreakpoint = (context: CommandContext): Enablement =>
   (debuggerOf(context)?.state.breakpoints.length ?? 0) > 0 ? true : 'debugger.reason.noBreakpoint';
+
+/** Some breakpoint that is not yet as all are to be. */
+const anyOther =
+  (enabled: boolean) =>
+  (context: CommandContext): Enablement =>
+    debuggerOf(context)?.state.breakpoints.some(({ order }) => (order.enabled ?? true) !== enabled) === true
+      ? true
+      : enabled
+        ? 'debugger.reason.allEnabled'
+        : 'debugger.reason.allDisabled';
 
 const mayDebug = when(online, connected, engineer);
 const mayStep = when(mayDebug, halted);
@@ -119,10 +140,28 @@ const commands: Command[] = [
     },
   ),
   {
+    id: 'debug.enableBreakpoints',
+    title: 'debugger.enableAll',
+    icon: CircleCheck,
+    keys: ['Ctrl+Shift+F9'],
+    menu: { menu: 'debug', group: '3_breakpoints_all', order: 1 },
+    enabled: when(mayDebug, anyBreakpoint, anyOther(true)),
+    run: (context) => enableBreakpoints(context.online!.runtimeId, true),
+  },
+  {
+    id: 'debug.disableBreakpoints',
+    title: 'debugger.disableAll',
+    icon: CircleSlash,
+    keys: ['Alt+Shift+F9'],
+    menu: { menu: 'debug', group: '3_breakpoints_all', order: 2 },
+    enabled: when(mayDebug, anyBreakpoint, anyOther(false)),
+    run: (context) => enableBreakpoints(context.online!.runtimeId, false),
+  },
+  {
     id: 'debug.removeBreakpoints',
     title: 'debugger.removeAll',
     icon: CircleX,
-    menu: { menu: 'debug', group: '3_breakpoints', order: 9 },
+    menu: { menu: 'debug', group: '3_breakpoints_all', order: 3 },
     enabled: when(mayDebug, anyBreakpoint),
     run: (context) => removeBreakpoints(context.online!.runtimeId),
   },
