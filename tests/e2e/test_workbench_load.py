@@ -14,6 +14,7 @@ import pytest
 from playwright.sync_api import (
     APIRequestContext,
     Browser,
+    Locator,
     Page,
     WebSocket,
     expect,
@@ -21,7 +22,8 @@ from playwright.sync_api import (
 
 from . import optimising_browser
 from .conftest import Server
-from .main_thread import PAINTED, SECONDS, Load, PlainTable, compare_scrolling
+from .frame_times import frames_of
+from .main_thread import FRAMES, PAINTED, SECONDS, Load, PlainTable, compare_scrolling
 from .workbench import implementation, log_in, open_object, open_panel, open_project
 
 pytestmark = [pytest.mark.e2e, pytest.mark.slow]
@@ -30,6 +32,7 @@ browser, profile = optimising_browser.browser, optimising_browser.profile
 PROJECT = "Thousand values"
 VARIABLES = 1000
 ROW_PX = 26
+WATCH_LIST = "[aria-label='Watch 1'][role=treegrid]"
 NUMBER = re.compile(r"\d+")
 OPENED = """
 async ([name, shown]) => {
@@ -82,7 +85,7 @@ class Subscriptions:
     """What the page asks the online socket for."""
 
     def __init__(self, page: Page) -> None:
-        self.asked: dict[int, int] = {}
+        self._asked: dict[int, list[str]] = {}
         page.on("websocket", self._opened)
 
     def _opened(self, socket: WebSocket) -> None:
@@ -94,9 +97,13 @@ class Subscriptions:
             return
         message = json.loads(frame)
         if message.get("op") == "subscribe":
-            self.asked[message["id"]] = len(message["expressions"])
+            self._asked[message["id"]] = message["expressions"]
         elif message.get("op") == "unsubscribe":
-            self.asked.pop(message["id"], None)
+            self._asked.pop(message["id"], None)
+
+    def expressions(self) -> list[str]:
+        """All that is asked for at present."""
+        return [expression for asked in self._asked.values() for expression in asked]
 
 
 def make_project(request: APIRequestContext, server: Server) -> str:
@@ -167,7 +174,7 @@ def test_a_thousand_values_on_screen(page: Page, subscriptions: Subscriptions) -
     first = cell.text_content()
     load.busy("table, 1,000 rows in a window of 1,200 px")
     assert cell.text_content() != first
-    assert 0 < sum(subscriptions.asked.values()) < 200
+    assert 0 < len(subscriptions.expressions()) < 200
     plain = PlainTable(page, VARIABLES, ROW_PX, table.evaluate("table => table.clientHeight"))
     compare_scrolling(load, plain, "table, scrolled", "[role=treegrid]")
     page.set_viewport_size({"width": 1440, "height": int(VARIABLES * ROW_PX * 1.6)})
@@ -198,20 +205,50 @@ def test_a_thousand_values_on_the_pixels_of_one_screen(page: Page, subscriptions
     session.send("Emulation.clearDeviceMetricsOverride")
 
 
-def test_a_thousand_values_in_a_watch_list(page: Page, subscriptions: Subscriptions) -> None:
-    """What no row on screen shows is not asked for once its type is known."""
+def test_a_thousand_values_in_a_watch_list(
+    page: Page, browser: Browser, subscriptions: Subscriptions
+) -> None:
+    """What no row on screen shows is neither in the page nor asked for once its type is known, wherever one
+    scrolls."""
     open_panel(page, "Watch 1")
     table = page.get_by_role("treegrid", name="Watch 1")
-    expect(table.get_by_role("row").filter(has_text="v0000").get_by_role("gridcell").nth(2)).to_have_text(
-        NUMBER
-    )
-    page.wait_for_timeout(3000)
+
+    def value_of(name: str) -> Locator:
+        return table.get_by_role("row").filter(has_text=name).get_by_role("gridcell").nth(2)
+
+    def is_lean(shown: str, hidden: str) -> None:
+        """One value changes, another is not asked for, and neither are most of the others."""
+        expect(value_of(shown)).to_have_text(NUMBER)
+        before = value_of(shown).text_content() or ""
+        expect(value_of(shown)).not_to_have_text(before)
+        page.wait_for_timeout(3000)
+        asked = subscriptions.expressions()
+        rows = table.get_by_role("row").count()
+        print(f"\n  at {shown}: {rows} rows in the page, {len(asked)} expressions asked for", end="")
+        assert shown in asked
+        assert hidden not in asked
+        assert len(asked) < 200
+        assert rows < 100
+
+    is_lean("v0000", "v0900")
     load = Load(page)
     load.busy("watch list of 1,000 rows, some on screen")
+    with frames_of(browser, page) as still:
+        page.wait_for_timeout(SECONDS * 1000)
+    with frames_of(browser, page) as scrolled:
+        page.evaluate(FRAMES % int(SECONDS * 1000), [WATCH_LIST, 40])
+    print(f"\n  values change: {still.text()}\n  and the list is scrolled: {scrolled.text()}", end="")
     plain = PlainTable(page, VARIABLES, ROW_PX, table.evaluate("table => table.clientHeight"))
-    compare_scrolling(load, plain, "watch list, scrolled", "[aria-label='Watch 1'][role=treegrid]")
+    compare_scrolling(load, plain, "watch list, scrolled", WATCH_LIST)
     plain.page.close()
-    print(f"\n  expressions asked for: {sum(subscriptions.asked.values())}", end="")
+    table.get_by_role("row").nth(1).get_by_role("gridcell").nth(1).click()
+    page.keyboard.press("Control+End")
+    is_lean("v0996", "v0000")
+    painted = page.evaluate(PAINTED, SECONDS * 1000)
+    print(f"\n  {painted:.0f} values are painted a second", end="")
+    assert painted < VARIABLES
+    page.keyboard.press("Control+Home")
+    is_lean("v0000", "v0900")
 
 
 def test_a_text_with_many_values(page: Page, subscriptions: Subscriptions) -> None:
