@@ -156,6 +156,44 @@ def test_a_recording_keeps_to_its_limit_of_age(database: Database, tmp_path: Pat
     assert row["keep_seconds"] == seconds
 
 
+def test_recordings_older_than_the_installation_keeps_are_deleted(database: Database, tmp_path: Path) -> None:
+    """By the end of the recording, or by when it was stored; what goes on stays."""
+    folder, day = tmp_path / "r", timedelta(days=1)
+    store = RecordingStore(folder, 1 << 40, RecordingIndex(database), keep=30 * day)
+    now = datetime.now(UTC)
+
+    def ended(ago: timedelta | None, **fields: Any) -> str:
+        return _recorded(store, batch(300), ended_at=None if ago is None else now - ago, **fields).meta.id
+
+    old, older = ended(31 * day, title="old"), ended(40 * day, title="older", state="interrupted")
+    young, stored, open_one = ended(29 * day), ended(None), ended(None, state="recording")
+    assert [meta.title for meta in store.delete_expired(now)] == ["older", "old"]
+    assert {row["id"] for row in store.found(Wanted())} == {young, stored, open_one}
+    assert not (folder / old).exists()
+    assert not (folder / older).exists()
+    assert store.delete_expired(now) == []
+    assert {meta.id for meta in store.delete_expired(now + 2 * day)} == {young}
+    assert {meta.id for meta in store.delete_expired(now + 31 * day)} == {stored}
+    assert [row["id"] for row in store.found(Wanted())] == [open_one]
+    unlimited = _store(database, folder)
+    assert unlimited.delete_expired(now + 1000 * day) == []
+
+
+def test_a_recording_that_goes_on_drops_what_the_installation_does_not_keep(
+    database: Database, tmp_path: Path
+) -> None:
+    seconds = 20
+    store = RecordingStore(tmp_path / "r", 1 << 40, RecordingIndex(database), keep=timedelta(seconds=seconds))
+    whole = batch(12 * CHUNK, holes=False)
+    for own, state in ((None, "recording"), (3600, "recording"), (None, "complete")):
+        recording = _recorded(store, whole, keep_seconds=own, state=state)
+        young = np.count_nonzero(whole.time >= int(whole.time[-1]) - seconds * 10**9)
+        if state == "complete":
+            assert recording.records[0].count == len(whole)
+        else:
+            assert young <= recording.records[0].count <= young + CHUNK < len(whole)
+
+
 def test_a_recording_keeps_to_its_limit_of_size(database: Database, tmp_path: Path) -> None:
     """Two records share the limit; the oldest samples of both go first."""
     store = _store(database, tmp_path / "r")

@@ -6,6 +6,8 @@ import csv
 import io
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +16,7 @@ import pyarrow.parquet as pq
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from server_clients import CHEAP, RUNTIME, connected, real_app, serving, until
+from server_clients import CHEAP, RUNTIME, connected, first_account, real_app, serving, until
 
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
 from tappet.traces.formats import write_trace
@@ -339,6 +341,28 @@ def test_files_and_stored_recordings(client: TestClient, tmp_path: Path, project
     assert client.get(f"{url}/window").status_code == 404
     bad = client.post(RECORDINGS, content=b"no trace")
     assert bad.json()["type"] == "urn:tappet:problem:trace-file-invalid"
+
+
+def test_the_server_deletes_recordings_that_are_too_old(tmp_path: Path) -> None:
+    """By itself after its start, and the audit log says so."""
+    kept = ServerSettings(data_dir=tmp_path, password_cost=CHEAP)
+    with serving(app := real_app(kept)):
+        store = app.state.services.traces.store
+        for title, days in (("Old", 8), ("Young", 6)):
+            ended = datetime.now(UTC) - timedelta(days)
+            store.create(
+                title=title, comment="", trace="T", application="A", runtime_id=None, runtime="",
+                project_id=None, started_by="ann", settings={"records": []}, records=[], ended_at=ended,
+            )  # fmt: skip
+    with serving(app := real_app(replace(kept, recordings_keep=timedelta(7)))):
+        client = first_account(app)
+        until(lambda: len(client.get(RECORDINGS).json()["recordings"]) == 1)
+        listed = client.get(RECORDINGS).json()
+        assert (listed["recordings"][0]["title"], listed["keep_days"]) == ("Young", 7)
+        asked = {"action": "recording-deleted"}
+        until(lambda: client.get("/api/v1/audit", params=asked).json())
+        (row,) = client.get("/api/v1/audit", params=asked).json()
+        assert (row["username"], row["subject"], row["result"]) == ("(server)", "Old", "ok")
 
 
 def test_an_export_names_the_formulas_that_have_no_values(

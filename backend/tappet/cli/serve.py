@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from argparse import Namespace
+from datetime import timedelta
 from pathlib import Path
 
 from tappet.cli.arguments import ArgumentParser, integer
@@ -52,6 +53,20 @@ def serve_arguments(parser: ArgumentParser) -> None:
         help="origin of pages besides its own; repeatable",
     )
     parser.add_argument(
+        "--recordings-gib",
+        type=integer(1, 1 << 20),
+        default=20,
+        metavar="GIB",
+        help="room of all stored recordings of traces; when it is used up, nothing more is recorded "
+        "(default: %(default)s)",
+    )
+    parser.add_argument(
+        "--recordings-days",
+        type=integer(1, 36_525),
+        metavar="DAYS",
+        help="older recordings of traces are deleted, and older samples of those that go on (default: none)",
+    )
+    parser.add_argument(
         "--runtime",
         action=argparse.BooleanOptionalAction,
         default=True,
@@ -74,6 +89,8 @@ def serve(given: Namespace) -> int:
         allowed_hosts=tuple(given.allowed_host),
         public_origins=tuple(given.public_origin),
         local_runtime=given.runtime,
+        recordings_gib=given.recordings_gib,
+        recordings_keep=None if given.recordings_days is None else timedelta(given.recordings_days),
     )
     return run(ServeOptions(settings, given.example, given.local_link))
 

@@ -12,6 +12,7 @@ from sqlalchemy import Connection, select
 from tappet.project.store import Store
 from tappet.server.analysis.project import Limits
 from tappet.server.analysis.service import AnalysisService
+from tappet.server.audit import Act, write
 from tappet.server.audit_reserve import AuditReserve
 from tappet.server.auth import accounts, sessions
 from tappet.server.auth.login import FIRST_ACCOUNT, Login
@@ -42,7 +43,9 @@ from tappet.whole_file import remove_unfinished
 
 log = logging.getLogger(__name__)
 HOUSEKEEPING_S = 3600.0
-"""How often expired sessions are deleted; expired ones are never accepted anyway."""
+"""How often expired sessions and recordings are deleted; expired sessions are never accepted anyway."""
+HOUSEKEEPER = "(server)"
+"""Who deletes in the audit log; no account can be called so."""
 
 
 @dataclass(slots=True)
@@ -122,7 +125,13 @@ class Services:
     def _tidy(self) -> None:
         self.audit_reserve.prepare()
         self.audit_reserve.move(self.database)
-        self.database.write(lambda db: sessions.remove_expired(db, self.settings, datetime.now(UTC)))
+        now = datetime.now(UTC)
+        self.database.write(lambda db: sessions.remove_expired(db, self.settings, now))
+        acts = [
+            Act("recording-deleted", meta.title, str(meta.started_at), project_id=meta.project_id)
+            for meta in self.traces.store.delete_expired(now)
+        ]
+        self.database.write(lambda db: write(db, HOUSEKEEPER, "", *acts))
 
     async def close(self) -> None:
         """Ends everything."""
@@ -186,7 +195,12 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
         commissioning=commissioning,
         cams=CamCalculator(objects),
         debug=DebugVariants(commissioning),
-        traces=Traces(settings.data_dir / "recordings", settings.recordings_gib << 30, database),
+        traces=Traces(
+            settings.data_dir / "recordings",
+            settings.recordings_gib << 30,
+            database,
+            settings.recordings_keep,
+        ),
         test_runs=TestRuns(commissioning.builder),
     )
     services.audit_reserve.try_move(database)

@@ -55,6 +55,9 @@ class ServerSettings:
     """It ends so long after the last editor of the project was closed."""
     recordings_gib: int = 20
     """Room that stored recordings of traces may take, in `data_dir`."""
+    recordings_keep: timedelta | None = None
+    """Older recordings are deleted, and older samples of those that go on; None: kept until somebody deletes
+    them, as measurements may be evidence."""
     reconnect_seconds: float = 1.0
     """First pause before a lost runtime is tried again; doubles up to 15 s. So does that before a local one
     which did not start is started again, up to 30 s."""

@@ -9575,6 +9575,11 @@ export interface components {
          * @description Stored recordings, newest first, and the room they take.
          */
         RecordingList: {
+            /**
+             * Keep Days
+             * @description Older recordings are deleted; null: none is.
+             */
+            keep_days: number | null;
             /** Quota Bytes */
             quota_bytes: number;
             /** Recordings */

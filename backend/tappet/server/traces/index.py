@@ -76,6 +76,13 @@ class RecordingIndex:
         query = select(*columns).where(*wanted.conditions()).order_by(table.c.started_at.desc(), table.c.id)
         return self._database.read(lambda db: [dict(row._mapping) for row in db.execute(query)])
 
+    def ended_before(self, moment: datetime) -> list[str]:
+        """Ids of the recordings that do not go on and ended, or were stored, before; oldest first."""
+        c = table.c
+        ended = func.coalesce(c.ended_at, c.started_at)
+        query = select(c.id).where(c.state != "recording", ended < moment).order_by(ended, c.id)
+        return self._database.read(lambda db: [row.id for row in db.execute(query)])
+
     def used(self) -> int:
         """Bytes of all of them."""
         query = select(func.coalesce(func.sum(table.c.bytes), 0))

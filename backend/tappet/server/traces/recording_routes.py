@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from datetime import timedelta
 from typing import TYPE_CHECKING, Annotated
 
 from fastapi import Depends, Path, Query, Request
@@ -76,7 +77,10 @@ def list_recordings(
     store = services.traces.store
     wanted = Wanted(project_id, runtime_id, trace, start, end)
     found = [in_language(RecordingInfo(**row), language) for row in store.found(wanted)]
-    return RecordingList(recordings=found, used_bytes=store.used(), quota_bytes=store.quota_bytes)
+    keep_days = None if store.keep is None else store.keep / timedelta(days=1)
+    return RecordingList(
+        recordings=found, used_bytes=store.used(), quota_bytes=store.quota_bytes, keep_days=keep_days
+    )
 
 
 @router.post("", status_code=201, max_body_size=LARGEST_UPLOAD, openapi_extra=_UPLOAD)

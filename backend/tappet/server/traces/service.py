@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -39,8 +39,10 @@ if TYPE_CHECKING:
 class Traces:
     """What the server knows of traces."""
 
-    def __init__(self, folder: Path, quota_bytes: int, database: Database) -> None:
-        self.store = RecordingStore(folder, quota_bytes, RecordingIndex(database))
+    def __init__(
+        self, folder: Path, quota_bytes: int, database: Database, keep: timedelta | None = None
+    ) -> None:
+        self.store = RecordingStore(folder, quota_bytes, RecordingIndex(database), keep)
         self.recordings = LongRecordings(self.store)
 
     @cached_property

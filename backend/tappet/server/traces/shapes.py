@@ -145,6 +145,7 @@ class RecordingList(Reply):
     recordings: list[RecordingInfo]
     used_bytes: int
     quota_bytes: int
+    keep_days: float | None = Field(description="Older recordings are deleted; null: none is.")
 
 
 class TraceState(Reply):

@@ -2,8 +2,8 @@
 
 A folder holds all that is known of its recording, so that it can be copied, backed up and deleted as one.
 Lists come from the index in the database, which is brought up to date with the folders once after the server
-has started. Together recordings take at most the quota of the installation; a recording that goes on may have
-a limit of its own, by which it drops its oldest samples.
+has started. Together recordings take at most the quota of the installation, and none becomes older than its
+limit of age; a recording that goes on may have limits of its own, by which it drops its oldest samples.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import shutil
 import threading
 import uuid
 from collections import OrderedDict
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -89,13 +89,16 @@ class StoredRecording:
         """Samples that its limits have cost."""
         return max((record.dropped for record in self.records), default=0)
 
-    def trim(self) -> None:
-        """Drop the oldest samples that are beyond the limits."""
+    def trim(self, keep: timedelta | None = None) -> None:
+        """Drop the oldest samples that are beyond the limits, and beyond that of the installation."""
         keep_bytes, keep_seconds = self.meta.keep_bytes, self.meta.keep_seconds
+        ages = [] if keep_seconds is None else [keep_seconds * 1_000_000_000]
+        if keep is not None:
+            ages.append(keep // timedelta(microseconds=1) * 1000)
         with self.lock:
-            if keep_seconds is not None:
+            if ages:
                 for record in self.records:
-                    record.drop(record.chunks_before((record.last_ns or 0) - keep_seconds * 1_000_000_000))
+                    record.drop(record.chunks_before((record.last_ns or 0) - min(ages)))
             over = 0 if keep_bytes is None else self.bytes - keep_bytes
             while over > 0:
                 oldest = min(self.records, key=lambda record: record.first_ns or 0)
@@ -156,9 +159,13 @@ class StoredRecording:
 class RecordingStore:
     """All recordings of the server. Its methods block; any thread may call them."""
 
-    def __init__(self, folder: Path, quota_bytes: int, index: RecordingIndex) -> None:
+    def __init__(
+        self, folder: Path, quota_bytes: int, index: RecordingIndex, keep: timedelta | None = None
+    ) -> None:
         self._folder = folder
         self.quota_bytes = quota_bytes
+        self.keep = keep
+        """How old a recording becomes; None: as old as it likes."""
         self._index = index
         self._lock = threading.RLock()
         self._compared = False
@@ -240,7 +247,7 @@ class RecordingStore:
     def flush(self, recording: StoredRecording) -> None:
         """Bring what is in memory to disk, drop what is beyond its limits, and tell the index."""
         recording.flush()
-        recording.trim()
+        recording.trim(self.keep if recording.meta.state == "recording" else None)
         self._index.put(recording.row())
 
     def change(self, recording_id: str, **fields: Any) -> StoredRecording:
@@ -250,6 +257,20 @@ class RecordingStore:
             recording.change(**fields)
             self._index.put(recording.row())
             return recording
+
+    def delete_expired(self, now: datetime) -> list[RecordingMeta]:
+        """Delete the recordings that ended, or were stored, before the limit of age; what they were."""
+        if self.keep is None:
+            return []
+        with self._lock:
+            self._compare()
+            deleted = []
+            for one in self._index.ended_before(now - self.keep):
+                try:
+                    deleted.append(self.delete(one))
+                except Problem:
+                    continue  # damaged, or removed by hand: it is left alone
+            return deleted
 
     def delete(self, recording_id: str) -> RecordingMeta:
         """Remove a recording; raises 404 and 409 problems."""

@@ -81,7 +81,9 @@ export function RecordingsPanel({ projectId, trace, view, onView, onConfiguratio
           <th data-text>{t('trace.started')}</th>
           <th>{t('trace.length')}</th>
           <th>{t('trace.samples')}</th>
-          <th>{t('trace.size', { used: formatBytes(found.used_bytes), quota: formatBytes(found.quota_bytes) })}</th>
+          <th title={found.keep_days === null ? undefined : t('trace.keptFor', { count: found.keep_days })}>
+            {t('trace.size', { used: formatBytes(found.used_bytes), quota: formatBytes(found.quota_bytes) })}
+          </th>
           <th />
         </tr>
       </thead>
