@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from tests.libraries.beyond_the_cnc_catalog import BLOCKS as BEYOND
-from tests.libraries.beyond_the_cnc_catalog import STRUCTURES
+from tests.libraries.beyond_the_cnc_catalog import ENUMERATIONS, STRUCTURES
 from tests.libraries.transformations import BLOCKS, CATALOG, OTHERS, OURS
 
 from tappet.libraries.catalog import Pin
@@ -59,3 +59,9 @@ def test_blocks_beyond_the_catalog_have_the_pins_of_their_source(name: str) -> N
 @pytest.mark.parametrize("name", sorted(STRUCTURES))
 def test_structures_beyond_the_catalog_have_the_members_of_their_source(name: str) -> None:
     assert {member.name: member.type for member in OURS[name].members} == STRUCTURES[name]
+
+
+@pytest.mark.parametrize("name", sorted(ENUMERATIONS))
+def test_enumerations_beyond_the_catalog_have_the_numbers_of_their_source(name: str) -> None:
+    assert {value.name: int(value.value) for value in OURS[name].values} == ENUMERATIONS[name]
+    assert all(value.comment for value in OURS[name].values)

@@ -18,6 +18,10 @@ from tappet.libraries import load
 from tappet.libraries.catalog import Item, items
 
 Numbers = npt.NDArray[np.float64]
+Given = dict[str, Numbers | float | bool]
+ROWS = 20_000
+RELATIVE = 1e-12
+"""Of the size of a machine: how near it has to come to where it was."""
 DATA = Path(__file__).parents[1] / "spec" / "data"
 CATALOG: dict[str, dict[str, Any]] = {
     item["name"]: item for item in json.loads((DATA / "SM3_CNC.json").read_text())["items"]
@@ -27,6 +31,7 @@ OTHERS = {
     *("SMC_TeachCoordinateSystem", "SMC_UnitVectorToRPY", "SMC_DetermineCuboidBearing"),
 }
 """Blocks about directions and coordinate systems."""
+ROBOT = "ArticulatedRobot_6DOF"
 OURS = {item.name: item for item in items(load("SM3_CNC"))}
 BLOCKS: dict[str, Item] = {
     name: item
@@ -40,6 +45,11 @@ MEMBERS = {
     "SMC_TrafoConfig_4AxisPalletizer": (
         *("dA1", "dD1", "dL1", "dL2", "dA4", "dD4"),
         *(f"adOffset[{axis}]" for axis in range(4)),
+    ),
+    "SMC_TrafoConfig_ArticulatedRobot_6DOF": (
+        *("dA1", "dA2", "dA3", "dD1", "dD3", "dD4", "dD6"),
+        *(f"adOffset[{axis}]" for axis in range(6)),
+        "bZUp",
     ),
 }
 FROM_NUMBER = {"LREAL": "{}", "BOOL": "{} <> 0.0", "INT": "LREAL_TO_INT({})"}
@@ -64,7 +74,8 @@ class Number:
 
 def _numbers(name: str, type_name: str) -> Iterator[Number]:
     if type_name in MEMBERS:
-        yield from (Number(f"{name}.{member}", "LREAL") for member in MEMBERS[type_name])
+        for member in MEMBERS[type_name]:
+            yield Number(f"{name}.{member}", "BOOL" if member.startswith("b") else "LREAL")
     elif type_name.startswith("ARRAY"):
         count = int(type_name.partition("..")[2].partition("]")[0]) + 1
         yield from (Number(f"{name}[{index}]", "LREAL") for index in range(count))
@@ -143,7 +154,7 @@ class Transformations:
     def __call__(
         self, block: str, given: Mapping[str, Numbers | float | bool], of: Sequence[str]
     ) -> dict[str, Numbers]:
-        """What a block gives for each row of what it is given, called in turn; inputs that are not named are 0."""
+        """What a block gives for each row that it is given, in turn; inputs that are not named are 0."""
         paths = [number.path for number in INPUTS[block]]
         assert {*given} <= {*paths}, {*given} - {*paths}
         columns = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in given.values()))
@@ -173,3 +184,19 @@ def _array(address: int) -> Numbers:
 def transformations() -> Iterator[Transformations]:
     with run(PROGRAM, 1) as program:
         yield Transformations(program)
+
+
+def uniform(random: np.random.Generator, low: float, high: float, *names: str) -> Given:
+    return {name: random.uniform(low, high, ROWS) for name in names}
+
+
+def back_from(
+    transform: Transformations, forward: str, axes: Mapping[str, Numbers], given: Given, *of: str
+) -> dict[str, Numbers]:
+    """What the forward block says with the axes at the results of the inverse one."""
+    drives = {f"{name}.fSetPosition": value for name, value in axes.items()}
+    return transform(forward, {**drives, **given}, of)
+
+
+def near(found: Numbers, expected: Numbers | float, scale: Numbers | float) -> None:
+    assert np.all(np.abs(found - expected) <= RELATIVE * np.asarray(scale))
