@@ -10,6 +10,7 @@ from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, b
 from tappet.codegen.package import CodePackage
 from tappet.lang.source import Source
 from tappet.libraries import names
+from tappet.libraries.repository import ROOT
 
 CYCLE_MS = 10
 SESSION = BuildSession()
@@ -38,19 +39,21 @@ class Program:
 
 
 @cache
-def _package(text: str) -> CodePackage:
-    libraries = tuple(LibraryReference(name) for name in names())
+def _package(text: str, inside: str = "") -> CodePackage:
+    libraries = tuple(LibraryReference(name) for name in names() if name != inside)
     options = BuildOptions(libraries=libraries, level=1)
-    result = build_application([Source("program", text)], options=options, session=SESSION)
-    assert [str(d) for d in result.diagnostics if d.severity == "error"] == []
+    own = sorted((ROOT / inside).glob("*.st")) if inside else []
+    sources = [Source(path.stem, path.read_text("utf-8")) for path in own]
+    result = build_application([*sources, Source("program", text)], options=options, session=SESSION)
+    assert not (errors := [str(d) for d in result.diagnostics if d.severity == "error"]), errors
     assert result.package is not None
     return result.package
 
 
 @contextmanager
-def run(text: str, cycles: int, cycle_ms: float = CYCLE_MS) -> Iterator[Program]:
-    """`text` after so many calls of its programs."""
-    with loaded(_package(text)) as application:
+def run(text: str, cycles: int, cycle_ms: float = CYCLE_MS, inside: str = "") -> Iterator[Program]:
+    """`text` after so many calls of its programs; `inside` a library it also has what is INTERNAL there."""
+    with loaded(_package(text, inside)) as application:
         for _ in range(cycles):
             application.cycle()
             application.clock_ns += round(cycle_ms * 1_000_000)
