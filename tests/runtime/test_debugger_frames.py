@@ -8,7 +8,15 @@ from debugger_programs import add, halted, line, loaded, step, until, value
 from tappet.runtime.plc import SoftPlc
 from tappet.runtime.recorder import RecorderSpec
 
-TEXT = """TYPE Point : STRUCT
+TEXT = """TYPE Mode : (Off, Slow, Fast); END_TYPE
+TYPE Setting : STRUCT
+    tDelay : TIME := T#1s500ms;
+    eMode : Mode := Fast;
+    dtLast : DT := DT#2024-02-29-12:30:00;
+    awLimits : ARRAY [0..1] OF REAL := [0.5, 1E10];
+    sName : STRING(10) := 'it$'s';
+END_STRUCT END_TYPE
+TYPE Point : STRUCT
     x : INT;
     y : INT;
 END_STRUCT END_TYPE
@@ -83,6 +91,8 @@ VAR
     faculty : FB_Faculty;
     f : LINT;
     s : DINT;
+    setting : Setting;
+    large : ARRAY [1..1000] OF DINT;
 END_VAR
 block();
 f := faculty.Fact(5);
@@ -130,6 +140,21 @@ def test_a_method_of_a_base_that_a_derived_block_calls(plc: SoftPlc) -> None:
     assert shown(plc, 0, "local")["total"] == 70
     with pytest.raises(ValueError, match="number"):
         plc.debugger.write("Main", 0, "by", "no number")
+
+
+def test_texts_are_iec_literals_down_to_the_parts(plc: SoftPlc) -> None:
+    """By which a structure can be compared with how it was declared; long ones are cut off."""
+    add(plc, at("block();"))
+    plc.start()
+    halted(plc)
+    found = {v.name: v for v in plc.debugger.variables("Main", 0).variables}
+    assert found["setting"].text == (
+        "(tDelay := T#1s500ms, eMode := Fast, dtLast := DT#2024-02-29-12:30:00, "
+        "awLimits := [0.5, 1.0E10], sName := 'it$'s')"
+    )
+    assert found["setting"].literal == ""
+    assert found["f"].text == found["f"].literal == "0"
+    assert found["large"].text == "[" + "0, " * 333 + "…"
 
 
 def test_recursion(plc: SoftPlc) -> None:

@@ -12733,6 +12733,8 @@ export interface components {
             /** @enum {unknown} */
             scope: "local" | "this";
             section: string;
+            /** @description The literal; structures and arrays as an initial value has them, shortened. */
+            text: string;
             type: string;
             /** @description JSON value; null when it cannot be read. */
             value: unknown;

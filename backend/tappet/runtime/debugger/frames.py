@@ -17,6 +17,8 @@ from tappet.runtime.posix import read_memory, write_memory
 
 DEEPEST = 1000
 """Levels of a call stack that are read."""
+MOST_TEXT = 1000
+"""Characters of the text of a variable."""
 Read = Callable[[int, int], bytes]
 
 
@@ -201,11 +203,13 @@ class FrameValues:
     ) -> Variable:
         try:
             value = values.decode(self._types, info, data, bit)
-            literal = values.format_literal(self._types, info, value) if info.leaf else ""
+            text = values.format_literal(self._types, info, value)
         except ValueError:
-            value, literal = None, ""
+            value, text = None, ""
+        literal = text if info.leaf else ""
+        text = text if len(text) <= MOST_TEXT else f"{text[:MOST_TEXT]}…"
         live = writable and self._stack.live
-        return Variable(name, info.name, info.kind, section, value, literal, live, scope, path)
+        return Variable(name, info.name, info.kind, section, value, literal, text, live, scope, path)
 
 
 def mark(variant: Variant, frame: Activation, number: int) -> None:

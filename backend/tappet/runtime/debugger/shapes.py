@@ -142,6 +142,9 @@ class Variable(Struct, frozen=True):
     section: str
     value: Annotated[Any, Meta(description="JSON value; null when it cannot be read.")]
     literal: Annotated[str, Meta(description="IEC literal; empty for structures and arrays.")]
+    text: Annotated[
+        str, Meta(description="The literal; structures and arrays as an initial value has them, shortened.")
+    ]
     writable: bool
     scope: Scope
     path: Annotated[str | None, Meta(description="By which it can be monitored as any other.")] = None

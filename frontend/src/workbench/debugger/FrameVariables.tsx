@@ -8,7 +8,6 @@ import type { Column } from '@/ui/table';
 import styles from '../online/CallStackPanel.module.css';
 import { writeVariable } from './acts';
 import own from './Debugger.module.css';
-import { valueText } from './valueText';
 
 /** The variables of a level of the call stack; Enter or a double click writes one. */
 export function FrameVariables({ runtimeId, variables }: { runtimeId: string; variables: readonly FrameVariable[] }) {
@@ -41,7 +40,7 @@ export function FrameVariables({ runtimeId, variables }: { runtimeId: string; va
         title: t('online.column.value'),
         width: 140,
         grow: true,
-        hint: (variable) => valueText(variable),
+        hint: ({ text }) => text,
         cell: (variable) =>
           written === variable.name ? (
             <input
@@ -58,7 +57,7 @@ export function FrameVariables({ runtimeId, variables }: { runtimeId: string; va
               }}
             />
           ) : (
-            <span className={styles.code}>{valueText(variable)}</span>
+            <span className={styles.code}>{variable.text === '' ? '–' : variable.text}</span>
           ),
       },
     ];
