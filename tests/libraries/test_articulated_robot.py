@@ -129,6 +129,30 @@ def test_the_flange_is_the_end_of_the_chain(
     assert _same_flange(flange, models.articulated(list(joints), size), _length(size))
 
 
+@pytest.mark.parametrize("convention", CONVENTIONS)
+def test_poses_where_angles_are_not_determined(
+    transform: Transformations, random: np.random.Generator, convention: str
+) -> None:
+    """The second angle is at an end of its range: one of the others is 0, all three give the orientation."""
+    size = DIMENSIONS["arms of one length"]
+    ends = {"ZYZ": (0.0, 180.0), "ZYX": (90.0, -90.0), "XYZ": (90.0, -90.0)}[convention]
+    first, third = random.uniform(-180.0, 180.0, (2, ROWS))
+    second = random.choice(ends, ROWS)
+    wanted = models.orientation(convention, first, second, third)
+    wanted[:, :3, 3] = [250.0, 100.0, 350.0]
+    angles: Given = {"pi.dA": first, "pi.dB": second, "pi.dC": third}
+    place = {"pi.dX": 250.0, "pi.dY": 100.0, "pi.dZ": 350.0, "eOriConv": float(CONVENTIONS[convention])}
+    states = dict(zip(STATES, SOLUTIONS[0], strict=True))
+    outputs, joints = _inverse(transform, {**_config(size), **place, **angles, **states})
+    assert not np.any(outputs["bError"])
+    assert _same_flange(models.articulated(list(joints), size), wanted, _length(size))
+    drives: Given = {f"Drive{axis + 1}.fSetPosition": joints[axis] + OFFSETS[axis] for axis in AXES}
+    names = [f"pi.d{name}" for name in "XYZABC"]
+    found = transform(FORWARD, {**_config(size), **drives, "eOriConv": place["eOriConv"]}, names)
+    assert _same_flange(_flange(found, convention=convention), wanted, _length(size))
+    assert np.median(np.abs(found["pi.dC" if convention == "XYZ" else "pi.dA"])) == 0.0
+
+
 def _solutions(
     transform: Transformations, size: dict[str, float], pose: Given, before: Given
 ) -> tuple[Numbers, Numbers]:

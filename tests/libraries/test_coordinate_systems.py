@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from tests.libraries import kinematic_models as models
-from tests.libraries.transformations import ROWS, Given, Transformations, near
+from tests.libraries.transformations import ROWS, Given, Numbers, Transformations, near
 
 
 def test_coordinate_systems(transform: Transformations, random: np.random.Generator) -> None:
@@ -84,3 +85,61 @@ def test_probed_cuboids(transform: Transformations, random: np.random.Generator)
     for name, expected in vectors.items():
         for i, c in enumerate("XYZ"):
             assert np.all(np.abs(found[f"{name}.d{c}"] - expected[:, i]) < 1e-9)
+
+
+def _vector(name: str, *numbers: float) -> Given:
+    return {f"{name}.d{c}": number for c, number in zip("XYZ", numbers, strict=True)}
+
+
+def _read(found: dict[str, Numbers], name: str) -> list[float]:
+    return [float(found[f"{name}.d{c}"][0]) for c in "XYZ"]
+
+
+def _names(*vectors: str) -> list[str]:
+    return [f"{vector}.d{c}" for vector in vectors for c in "XYZ"]
+
+
+def test_the_worked_example(transform: Transformations) -> None:
+    """Spec cnc_runtime EX-41."""
+    frame = _vector("vX", 0, 1, 0) | _vector("vY", -1, 0, 0) | _vector("vZ", 0, 0, 1)
+    frame |= _vector("vTranslation", 100, 50, 10)
+    point = {**frame, **_vector("piIn", 120, 80, 35)}
+    there = transform("SMC_CoordinateTransformation3D", point, _names("piOut"))
+    assert _read(there, "piOut") == [30.0, -20.0, 25.0]
+    point = {**frame, **_vector("piIn", 30, -20, 25)}
+    back = transform("SMC_InvCoordinateTransformation3D", point, _names("piOut"))
+    assert _read(back, "piOut") == [120.0, 80.0, 35.0]
+    points = _vector("vOrigin", 1, 1, 0) | _vector("vPointOnX", 3, 1, 0) | _vector("vPointOnY", 2, 3, 0)
+    taught = transform("SMC_TeachCoordinateSystem", points, [*_names("vX", "vY", "vZ"), "fQuality"])
+    assert [_read(taught, name) for name in ("vX", "vY", "vZ")] == [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    assert taught["fQuality"][0] == pytest.approx(2 / np.sqrt(5))
+    probed = _vector("A1", 13, 24, 5) | _vector("A2", 18, 22, 5) | _vector("A3", 12, 29, 5)
+    probed |= _vector("B1", 15, 20, 8) | _vector("B2", 19, 20, 7) | _vector("C1", 10, 25, 9)
+    found = transform("SMC_DetermineCuboidBearing", probed, _names("M", "vAB", "vBC", "vCA"))
+    assert _read(found, "M") == [10, 20, 5]
+    assert [_read(found, name) for name in ("vAB", "vBC", "vCA")] == [[1, 0, 0], [0, 0, 1], [0, 1, 0]]
+
+
+def test_a_work_piece_that_was_probed(transform: Transformations) -> None:
+    """Spec CNCR-185: points of a program lie on the work piece as it was clamped."""
+    turn = models.orientation("ZYX", *(np.array([angle]) for angle in (20.0, -10.0, 5.0)))[0, :3, :3]
+    corner = np.array([200.0, 100.0, 30.0])
+    local = {
+        "A1": (5, 5, 0),
+        "A2": (60, 5, 0),
+        "A3": (5, 40, 0),
+        "B1": (5, 0, 9),
+        "B2": (70, 0, 4),
+        "C1": (0, 8, 6),
+    }
+    probed: Given = {}
+    for name, place in local.items():
+        probed |= _vector(name, *(corner + turn @ np.array(place, dtype=float)))
+    found = transform("SMC_DetermineCuboidBearing", probed, _names("M", "vAB", "vBC", "vCA"))
+    axes = {"vX": "vAB", "vY": "vCA", "vZ": "vBC", "vTranslation": "M"}
+    frame: Given = {}
+    for pin, output in axes.items():
+        frame |= _vector(pin, *_read(found, output))
+    point = {**frame, **_vector("piIn", 12, 34, 5)}
+    machine = transform("SMC_InvCoordinateTransformation3D", point, _names("piOut"))
+    assert _read(machine, "piOut") == pytest.approx(corner + turn @ [12.0, 34.0, 5.0])
