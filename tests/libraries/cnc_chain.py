@@ -57,7 +57,7 @@ VAR
     aBuffer : ARRAY[1..{LARGE}] OF SM3_CNC.SMC_GEOINFO;
 {buffers}    pOut : POINTER TO SM3_CNC.SMC_OUTQUEUE;
     xOver, xError, xBegun : BOOL;
-    nError : INT;
+    nError, nGenerator : INT;
 END_VAR
 IF NOT xBegun THEN
     queue.pbyBuffer := ADR(aBuffer);
@@ -85,6 +85,7 @@ FOR n := 1 TO nTakes DO
         nOut := nOut + 1;
     END_IF
 END_FOR
+nGenerator := SEL(pOut <> 0, 0, pOut^.byGenerator);
 xOver := pOut <> 0 AND_THEN (pOut^.bEndOfList AND SM3_CNC.SMC_GetCount(pOut) = 0);
 END_PROGRAM
 """
@@ -121,7 +122,7 @@ def through(
             raise AssertionError("the path does not come to its end")
         count = int(application.literal("Main.nOut"))
         literals = [application.literal(f"Main.aOut[{n}]") for n in range(count)]
-        generator = int(application.literal("Main.pOut^.byGenerator"))
+        generator = int(application.literal("Main.nGenerator"))
         error = int(application.literal("Main.nError"))
     return Result([parsed(text) for text in literals], error, generator, literals)
 
