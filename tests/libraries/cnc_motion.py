@@ -28,12 +28,14 @@ _RECORDED = {
     "aLine": "ipo.iActObjectSourceNo",
     "aTangent": "ABS(ipo.vecActTangent.dX) + ABS(ipo.vecActTangent.dY) + ABS(ipo.vecActTangent.dZ)",
     "aLeft": "SM3_CNC.SMC_GetCount(ADR(queue))",
-    "aDone": "BOOL_TO_INT(ipo.bDone)",
     "aWorking": "BOOL_TO_INT(ipo.bWorking)",
 }
-_ARRAYS = ", ".join(_RECORDED)
+_ARRAYS = ", ".join([*_RECORDED, "aDone"])
 _STORES = "\n    ".join(f"{name}[n] := {expression};" for name, expression in _RECORDED.items())
-PROGRAM = f"""
+def program_text(block: str = "SMC_Interpolator", declarations: str = "", calls: str = "", producer: str = "") -> str:
+    """The program with another interpolator, other calls in front of it, or more before the check."""
+    done = "bEndOfPath" if block == "SMC_Interpolator2Dir" else "bDone"
+    return f"""
 PROGRAM Main
 VAR
     queue   : SM3_CNC.SMC_OUTQUEUE;
@@ -41,10 +43,12 @@ VAR
     aPath   : ARRAY[0..{CAPACITY - 1}] OF SM3_CNC.SMC_GEOINFO;
     geo     : SM3_CNC.SMC_GEOINFO;
     check   : SM3_CNC.SMC_CheckVelocities;
-    ipo     : SM3_CNC.SMC_Interpolator := (dwIpoTime := 10000);
+    ipo     : SM3_CNC.{block} := (dwIpoTime := 10000);
+    {declarations}
     xStarts : BOOL := TRUE;
     xChecks : BOOL := TRUE;
     xCloses : BOOL := TRUE;
+    xExecutes : BOOL := TRUE;
     nObjects, nCalls, n, nFed : DINT;
     nPerCall  : DINT := {CAPACITY};  (* Objects that the producer appends before a call *)
     nCheckEvery : DINT := 1;
@@ -62,13 +66,16 @@ IF xStarts THEN
 END_IF
 FOR n := 0 TO nCalls - 1 DO
     Feed();
+    {producer}
     nEveryCalls := nEveryCalls + 1;
     IF xChecks AND nEveryCalls MOD nCheckEvery = 0 THEN
         check(bExecute := TRUE, poqDataIn := ADR(queue));
     END_IF
-    ipo(bExecute := TRUE, poqDataIn := ADR(queue), dLastWayPos := dWay);
+    {calls}
+    ipo(bExecute := xExecutes, poqDataIn := ADR(queue), dLastWayPos := dWay);
     dWay := ipo.dWayPos;
     {_STORES}
+    aDone[n] := BOOL_TO_INT(ipo.{done});
 END_FOR
 END_PROGRAM
 
@@ -85,6 +92,9 @@ END_FOR
 queue.bEndOfList := xCloses AND nFed >= nObjects;
 END_METHOD
 """
+
+
+PROGRAM = program_text()
 
 
 @dataclass(frozen=True)
@@ -137,16 +147,16 @@ class Motion:
         assert count <= CALLS
         self.program.set("Main", nCalls=count)
         self.program.cycle()
-        return {name: np.array(self.program.numbers(f"Main.{name}")[:count]) for name in _RECORDED}
+        return {name: np.array(self.program.numbers(f"Main.{name}")[:count]) for name in [*_RECORDED, "aDone"]}
 
     def end_velocities(self, count: int) -> list[float]:
         return [float(self.program.literal(f"Main.aBuffer[{n + 1}].dVelEnd")) for n in range(count)]
 
 
 @contextmanager
-def motion(path: Sequence[Object], **inputs: float | bool | str) -> Iterator[Motion]:
+def motion(path: Sequence[Object], text: str = PROGRAM, **inputs: float | bool | str) -> Iterator[Motion]:
     """`path` ready to be interpolated."""
-    with run(PROGRAM, cycles=0) as program:
+    with run(text, cycles=0) as program:
         found = Motion(program)
         found.load(path)
         found.set(**inputs)
