@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-
 from tests.libraries.cnc_paths import AXES, Geo
 from tests.libraries.st_program import run
 
@@ -58,6 +57,7 @@ VAR
 {buffers}    pOut : POINTER TO SM3_CNC.SMC_OUTQUEUE;
     xOver, xError, xBegun : BOOL;
     nError, nGenerator : INT;
+    vec : SM3_CNC.SMC_VECTOR3D; (* An input of a block *)
 END_VAR
 IF NOT xBegun THEN
     queue.pbyBuffer := ADR(aBuffer);
@@ -108,10 +108,12 @@ def through(
     gives: int = LARGE,
     takes: int = LARGE,
     cycles: int = 400,
+    vec: tuple[float, float, float] = (0.0, 0.0, 0.0),
 ) -> Result:
     """The objects behind the blocks, and the error of the block that stopped, 0 for none."""
     with run(program(blocks), cycles=0) as application:
         application.set("Main", nIn=len(objects), nCapacity=capacity, nGives=gives, nTakes=takes)
+        application.set("Main", **{f"vec.{axis}": value for axis, value in zip(AXES, vec, strict=False)})
         for n, geo in enumerate(objects):
             application.set("Main", **{f"aIn[{n}].{name}": value for name, value in geo.values().items()})
         for _ in range(cycles):
@@ -179,7 +181,13 @@ def _parse(text: str) -> dict[str, Any]:
                 return int(digits, 16)
             token = digits
         token = token.rsplit(".", 1)[-1] if token[0].isalpha() else token
-        return KINDS[token] if token in KINDS else float(token) if not token.lstrip("-").isdigit() else int(token)
+        return (
+            KINDS[token]
+            if token in KINDS
+            else float(token)
+            if not token.lstrip("-").isdigit()
+            else int(token)
+        )
 
     found = value()
     assert isinstance(found, dict)

@@ -175,3 +175,36 @@ def spline(x: list[float], y: list[float], z: list[float] | None = None, **membe
     found.start[:3] = found.curve(0.0)
     found.end[:3] = found.curve(1.0)
     return found
+
+
+def path(pieces: list[tuple[float, ...]], **members: float) -> list[Geo]:
+    """A path in X, Y of lines (turn, length), arcs (turn, radius, swept), ellipses (turn, a, b, swept).
+
+    An ellipse begins at a tip of its main axis; `turn` is the angle of the corner in front [deg]; swept above 0 is clockwise.
+    """
+    found: list[Geo] = []
+    here, heading = np.zeros(2), 0.0
+    for piece in pieces:
+        heading += piece[0]
+        sign = 1.0 if len(piece) == 2 or piece[-1] > 0 else -1.0
+        ahead = np.array([math.cos(math.radians(heading)), math.sin(math.radians(heading))])
+        left = np.array([-ahead[1], ahead[0]])
+        if len(piece) == 2:
+            there = here + piece[1] * ahead
+            found.append(line(position(*here), position(*there), **members))
+        elif len(piece) == 3:
+            centre = here - sign * piece[1] * left
+            first = heading + sign * 90
+            found.append(arc((centre[0], centre[1]), piece[1], first, piece[2], **members))
+            heading -= piece[2]
+        else:
+            centre = here - sign * piece[1] * left
+            first = heading + sign * 90
+            found.append(
+                ellipse((centre[0], centre[1]), (piece[1], piece[2]), first, first, piece[3], **members)
+            )
+            slope = found[-1].slope(1.0)
+            heading = math.degrees(math.atan2(slope[1], slope[0]))
+        found[-1].start[:2] = here
+        here = found[-1].end[:2]
+    return found

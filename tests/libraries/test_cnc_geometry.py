@@ -120,7 +120,7 @@ def load(program: Program, geo: Geo) -> None:
 @settings(max_examples=40, deadline=None)
 @given(objects(), st.integers(0, 0xFFF))
 def test_any_object_is_where_its_formulas_say(geo: Geo, s_shaped: int) -> None:
-    """Spec cnc_runtime 2, GEO-02, GEO-08 to GEO-11, CNCR-126, CNCR-C18: lengths by quadrature and points by it."""
+    """Spec cnc_runtime 2, GEO-02, GEO-08 to GEO-11, CNCR-126, CNCR-C18: lengths and points by quadrature."""
     length = geo.length()
     assume(length > 1e-3)
     scale = max(1.0, float(np.abs(geo.start).max()), float(np.abs(geo.end).max()), length)
