@@ -179,7 +179,7 @@ class AxisGroup:
         return self._application.literal(f"Main.{path}")
 
     def number(self, path: str) -> float:
-        return float(self.text(path))
+        return float(self._application.read(f"Main.{path}"))  # type: ignore[arg-type]
 
     def outputs(self, block: str) -> set[str]:
         """Which outputs of an Execute block are TRUE."""
@@ -213,6 +213,16 @@ class AxisGroup:
     @property
     def path_acceleration(self) -> float:
         return self.number("Group.fPathAcceleration")
+
+    def done(self, block: str) -> bool:
+        return bool(self._application.read(f"Main.{block}.Done"))
+
+    def flag(self, path: str) -> bool:
+        return bool(self._application.read(f"Main.{path}"))
+
+    def until_done(self, block: str, at_most: float = 300.0) -> float:
+        """Seconds until a block has its end; the cycle that says so comes one later."""
+        return self.until(lambda: self.done(block), at_most) - CYCLE
 
     def until(self, condition: Callable[[], bool], at_most: float = 300.0) -> float:
         """Seconds until a condition holds."""
