@@ -135,12 +135,15 @@ export function useDraft<Data extends ProjectObject['data']>(
     [set],
   );
 
+  // Not as `Data`: the union of the dependencies of all kinds is more than the compiler takes.
+  const present: unknown = data;
   const handlers = useMemo(() => {
     const step = (from: 'past' | 'future', to: 'past' | 'future', take: number) => () => {
       const target = history[from].at(take);
-      if (target === undefined || data === undefined) return;
+      if (target === undefined || present === undefined) return;
       const rest = take === 0 ? history[from].slice(1) : history[from].slice(0, -1);
-      const kept = to === 'future' ? [data, ...history[to]] : [...history[to], data];
+      const now = present as Data;
+      const kept = to === 'future' ? [now, ...history[to]] : [...history[to], now];
       setHistory({ ...history, [from]: rest, [to]: kept, of: target });
       set(target);
     };
@@ -157,7 +160,7 @@ export function useDraft<Data extends ProjectObject['data']>(
         enabled: blocked ?? (history.future.length ? (true as const) : ('reason.nothingToRedo' as const)),
       },
     };
-  }, [history, data, save, set, allowed, others]);
+  }, [history, present, save, set, allowed, others]);
   useHandlers(panelId, handlers);
 
   return { object, data, readOnly, refused, error, change };
