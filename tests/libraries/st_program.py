@@ -1,5 +1,6 @@
 """A program with all libraries, run for some cycles of virtual time."""
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -14,6 +15,9 @@ from tappet.libraries.repository import ROOT
 
 CYCLE_MS = 10
 SESSION = BuildSession()
+WITHOUT_RESULT = re.compile(r"^(?=FUNCTION INTERNAL \w+$)", re.MULTILINE)
+"""Functions of a library may be without a result, those of an application only where they are marked."""
+MARK = "{attribute 'no_return_type'} "
 
 
 class Program:
@@ -43,7 +47,7 @@ def _package(text: str, inside: str = "") -> CodePackage:
     libraries = tuple(LibraryReference(name) for name in names() if name != inside)
     options = BuildOptions(libraries=libraries, level=1)
     own = sorted((ROOT / inside).glob("*.st")) if inside else []
-    sources = [Source(path.stem, path.read_text("utf-8")) for path in own]
+    sources = [Source(path.stem, WITHOUT_RESULT.sub(MARK, path.read_text("utf-8"))) for path in own]
     result = build_application([*sources, Source("program", text)], options=options, session=SESSION)
     assert not (errors := [str(d) for d in result.diagnostics if d.severity == "error"]), errors
     assert result.package is not None
