@@ -60,7 +60,7 @@ function Hits({ hits }: { hits: readonly HelpEntry[] }) {
     <ul className={styles.hits} aria-label={t('help.found')}>
       {hits.map((entry) => (
         <li key={`${entry.kind}/${entry.library ?? ''}/${entry.name}`}>
-          <button className={styles.hit} onClick={() => openEntry(entry)}>
+          <button type="button" className={styles.hit} onClick={() => openEntry(entry)}>
             <span className={styles.title}>{entry.title}</span>
             <span className={styles.kind}>{t(`help.kind.${entry.kind}`)}</span>
             <span className={styles.summary}>{entry.summary}</span>

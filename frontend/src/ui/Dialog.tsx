@@ -1,6 +1,14 @@
 import { X } from 'lucide-react';
 import { Dialog as Radix } from 'radix-ui';
-import type { CSSProperties, FormEvent, KeyboardEvent, ReactNode } from 'react';
+import {
+  useEffect,
+  useRef,
+  type CSSProperties,
+  type FormEvent,
+  type KeyboardEvent,
+  type ReactNode,
+  type RefObject,
+} from 'react';
 import { useText } from '@/i18n';
 import { IconButton } from './Button';
 import styles from './Dialog.module.css';
@@ -36,11 +44,14 @@ export function Dialog({ title, description, width, onClose, onSubmit, footer, c
     event.stopPropagation();
     onSubmit?.();
   };
+  const frame = useRef<HTMLDivElement>(null);
+  useEscapeBesideTooltip(frame, onClose);
   return (
     <Radix.Root open onOpenChange={(open) => !open && onClose()}>
       <Radix.Portal>
         <Radix.Overlay className={styles.scrim} />
         <Radix.Content
+          ref={frame}
           className={styles.dialog}
           style={width ? ({ '--dialog-width': `${width}px` } as CSSProperties) : undefined}
           aria-describedby={description ? undefined : ''}
@@ -57,6 +68,23 @@ export function Dialog({ title, description, width, onClose, onSubmit, footer, c
       </Radix.Portal>
     </Radix.Root>
   );
+}
+
+/** Escape closes a dialog also while a tooltip is shown, which would take the key for itself. */
+function useEscapeBesideTooltip(frame: RefObject<HTMLElement | null>, onClose: () => void): void {
+  const close = useRef(onClose);
+  useEffect(() => {
+    close.current = onClose;
+  });
+  useEffect(() => {
+    const onKey = (event: globalThis.KeyboardEvent) => {
+      // The keyboard is in the dialog itself: no menu or further dialog lies above it.
+      const own = event.target instanceof Node && frame.current?.contains(event.target) === true;
+      if (event.key === 'Escape' && own && document.querySelector('[role="tooltip"]') !== null) close.current();
+    };
+    document.addEventListener('keydown', onKey, true);
+    return () => document.removeEventListener('keydown', onKey, true);
+  }, [frame]);
 }
 
 /** Our radios are buttons: Enter would only choose again what is chosen, where every dialog takes it as the answer. */

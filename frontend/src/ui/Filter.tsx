@@ -12,7 +12,13 @@ interface FilterTogglesProps<Kind extends string> {
 /** Show or hide the entries of a list by their kind, above it. */
 export function FilterToggles<Kind extends string>({ kinds, hidden, toggle, children }: FilterTogglesProps<Kind>) {
   return kinds.map((kind) => (
-    <button key={kind} className={styles.toggle} aria-pressed={!hidden.has(kind)} onClick={() => toggle(kind)}>
+    <button
+      type="button"
+      key={kind}
+      className={styles.toggle}
+      aria-pressed={!hidden.has(kind)}
+      onClick={() => toggle(kind)}
+    >
       {children(kind)}
     </button>
   ));

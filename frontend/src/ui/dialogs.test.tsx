@@ -25,7 +25,11 @@ function FailingWhenClosed({ close }: { close: (answer: string) => void }) {
     },
     [],
   );
-  return <button onClick={() => close('taken')}>take</button>;
+  return (
+    <button type="button" onClick={() => close('taken')}>
+      take
+    </button>
+  );
 }
 
 const page = (rest: string) => (

@@ -151,6 +151,7 @@ interface StartActionProps {
 function StartAction({ icon: Icon, text, about, refused, run }: StartActionProps) {
   return (
     <button
+      type="button"
       className={styles.action}
       aria-disabled={refused ? true : undefined}
       title={refused ?? about}
@@ -210,7 +211,7 @@ function ProjectRow({ project, refused }: { project: ProjectSummary; refused: st
   return (
     <div className={styles.project} onClick={open}>
       <ObjectIcon kind={kindWithRole('application')?.kind ?? ''} size={20} />
-      <button className={styles.open}>
+      <button type="button" className={styles.open}>
         <span className={styles.name}>{project.name}</span>
         {project.description && <span className={styles.description}>{project.description}</span>}
       </button>

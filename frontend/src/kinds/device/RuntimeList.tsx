@@ -55,6 +55,7 @@ export function RuntimeList({ runtimes, error, chosen, readOnly, onChoose }: Run
         {runtimes.map((runtime) => (
           <div key={runtime.id} className={styles.runtime} data-chosen={runtime.id === chosen ? '' : undefined}>
             <button
+              type="button"
               role="radio"
               aria-checked={runtime.id === chosen}
               aria-label={runtime.name}

@@ -129,6 +129,7 @@ export function TraceTree(props: TraceTreeProps) {
                 {name}
               </span>
               <button
+                type="button"
                 className={styles.eye}
                 tabIndex={-1}
                 aria-label={t('trace.visibleOf', { name })}

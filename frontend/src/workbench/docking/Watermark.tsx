@@ -16,7 +16,7 @@ export function Watermark() {
         {SHOWN.map((id) => commands.get(id))
           .filter((command) => command !== undefined)
           .map((command) => (
-            <button key={command.id} className={styles.line} onClick={() => void runCommand(command.id)}>
+            <button type="button" key={command.id} className={styles.line} onClick={() => void runCommand(command.id)}>
               {titleOf(command)}
               {command.keys?.[0] && <kbd className={styles.key}>{keysText(command.keys[0])}</kbd>}
             </button>

@@ -37,6 +37,7 @@ export function MenuBar() {
       <div className={styles.left}>
         <Tooltip text={t('command.closeProject')}>
           <button
+            type="button"
             className={styles.mark}
             aria-label={t('command.closeProject')}
             onClick={() => void runCommand('file.closeProject')}
@@ -71,6 +72,7 @@ export function MenuBar() {
         </Menubar.Root>
       </div>
       <button
+        type="button"
         className={styles.finder}
         onClick={() => void runCommand('view.quickOpen')}
         aria-label={`${name ?? ''} ${t('command.quickOpen')}`}

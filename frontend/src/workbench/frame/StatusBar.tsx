@@ -83,6 +83,7 @@ function RuntimeItem({ session }: { session: OnlineSession }) {
   return (
     <Tooltip text={`${runtime?.name ?? ''} · ${state}`} detail={detail} side="top">
       <button
+        type="button"
         className={`${styles.item} ${styles.runtime}`}
         data-tone={tone}
         onClick={() => showPanel(runtime?.exception ? 'callStack' : 'log')}
@@ -112,7 +113,7 @@ function TaskItem({ runtimeId }: { runtimeId: string }) {
       })}
       side="top"
     >
-      <button className={styles.item} onClick={() => showPanel('tasks')}>
+      <button type="button" className={styles.item} onClick={() => showPanel('tasks')}>
         {task.name}
         <span className={styles.measure}>{microsText(task.last_us)}</span>
         <span className={styles.measure}>±{microsText(Math.abs(task.jitter_us))}</span>
@@ -134,7 +135,7 @@ function RelationItem({ relation }: { relation: LoginRelation }) {
   const { icon: Icon, className } = RELATIONS[relation];
   return (
     <Tooltip text={t(`relation.${relation}`)} detail={t('changes.show')} side="top">
-      <button className={`${styles.item} ${className}`} onClick={() => showPanel('onlineChanges')}>
+      <button type="button" className={`${styles.item} ${className}`} onClick={() => showPanel('onlineChanges')}>
         <Icon size={14} aria-label={t(`relation.${relation}`)} />
       </button>
     </Tooltip>
@@ -164,6 +165,7 @@ function ForceItem({ runtimeId }: { runtimeId: string }) {
   return (
     <Tooltip text={t('status.forced', { count })} side="top">
       <button
+        type="button"
         className={`${styles.item} ${styles.force}`}
         aria-label={t('status.forced', { count })}
         onClick={() => showPanel('forces')}
@@ -182,7 +184,11 @@ function FlowItem({ runtimeId }: { runtimeId: string }) {
   if (!on) return null;
   return (
     <Tooltip text={t('debugger.flowOn')} detail={t('debugger.flowOff')} side="top">
-      <button className={`${styles.item} ${styles.ok}`} onClick={() => void runCommand('debug.flowControl')}>
+      <button
+        type="button"
+        className={`${styles.item} ${styles.ok}`}
+        onClick={() => void runCommand('debug.flowControl')}
+      >
         <Workflow size={13} aria-hidden />
         {t('debugger.flowControl')}
       </button>
@@ -199,7 +205,7 @@ function ExceptionItem({ session }: { session: OnlineSession }) {
   const text = [title, place].filter(Boolean).join(' · ');
   return (
     <Tooltip text={text} detail={exceptionText(exception) || undefined} side="top">
-      <button className={`${styles.item} ${styles.exception}`} onClick={() => jumpToFrame(exception)}>
+      <button type="button" className={`${styles.item} ${styles.exception}`} onClick={() => jumpToFrame(exception)}>
         <OctagonAlert size={13} aria-hidden />
         <span>{text}</span>
       </button>
@@ -217,7 +223,7 @@ function OfflineItem() {
   return (
     <>
       <Tooltip text={t('command.login')} shortcut="Alt+F8" side="top">
-        <button className={styles.item} onClick={() => void runCommand('online.login')}>
+        <button type="button" className={styles.item} onClick={() => void runCommand('online.login')}>
           <Unplug size={13} aria-hidden />
           {t('status.offline')}
         </button>
@@ -233,7 +239,7 @@ function OfflineRelation({ relation }: { relation: LoginRelation }) {
   const { icon: Icon, className } = RELATIONS[relation];
   return (
     <Tooltip text={t(`relation.${relation}`)} detail={t('changes.show')} side="top">
-      <button className={`${styles.item} ${className}`} onClick={() => showPanel('onlineChanges')}>
+      <button type="button" className={`${styles.item} ${className}`} onClick={() => showPanel('onlineChanges')}>
         <Icon size={13} aria-hidden />
         {t(`relation.short.${relation}`)}
       </button>
@@ -247,7 +253,7 @@ function MessageItem() {
   const count = useMemo(() => countOf(presentMessages(build, live)), [build, live]);
   return (
     <Tooltip text={t('status.messages')} side="top">
-      <button className={styles.item} onClick={() => showPanel('messages')}>
+      <button type="button" className={styles.item} onClick={() => showPanel('messages')}>
         <CircleX size={13} className={count.error ? styles.error : undefined} aria-hidden />
         <span aria-hidden>{count.error}</span>
         <TriangleAlert size={13} className={count.warning ? styles.warn : undefined} aria-hidden />
@@ -271,6 +277,7 @@ function BusyItem() {
       {busy.cancel && (
         <Tooltip text={t('action.cancel')} side="top">
           <button
+            type="button"
             className={styles.item}
             style={{ padding: '0 3px' }}
             aria-label={t('action.cancel')}
@@ -293,7 +300,12 @@ function CursorItem() {
   const position = t('status.position', { line: cursor.line, column: cursor.column });
   return (
     <>
-      <button className={styles.item} title={t('status.tabRules')} onClick={() => void runCommand('st.tabMovesFocus')}>
+      <button
+        type="button"
+        className={styles.item}
+        title={t('status.tabRules')}
+        onClick={() => void runCommand('st.tabMovesFocus')}
+      >
         {t(tabMoves ? 'status.tabMoves' : 'status.tabIndents')}
       </button>
       <span className={styles.item}>

@@ -55,7 +55,7 @@ export function UserMenu() {
       align="end"
       entries={entries}
       trigger={
-        <button className={styles.user} aria-label={t('user.menu', { name: user.username })}>
+        <button type="button" className={styles.user} aria-label={t('user.menu', { name: user.username })}>
           <span className={styles.avatar} data-initials={initials(user.username)} aria-hidden />
           {user.username}
           <ChevronDown size={13} aria-hidden />

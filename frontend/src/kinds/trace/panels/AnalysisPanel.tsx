@@ -69,6 +69,7 @@ export function AnalysisPanel(props: AnalysisPanelProps) {
       <div className={panel.panelTabs} role="tablist" aria-label={t('trace.analysis')}>
         {PANELS.map((panel) => (
           <button
+            type="button"
             key={panel}
             role="tab"
             aria-selected={view.panel === panel}
