@@ -26,7 +26,7 @@ export function IndexDialog({ path, bounds, find, close }: IndexDialogProps) {
   return (
     <FormDialog
       title={t('online.goToIndex')}
-      description={path}
+      description={<span className="code">{path}</span>}
       action={t('online.index.go')}
       disabledReason={text.trim() === '' ? t('online.index.empty') : null}
       width={360}

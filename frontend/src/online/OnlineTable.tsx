@@ -177,7 +177,10 @@ export function OnlineTable(props: OnlineTableProps) {
         runtimeId === null ? t('reason.notLoggedIn') : arrayHere() === null ? t('online.index.choose') : null,
       run: goToIndex,
     };
-    return props.menu === undefined ? [] : [prepareEntry, indexEntry, ...props.menu(chosen)];
+    if (props.menu === undefined) return [];
+    // A table without an array need not speak of indices.
+    const withArrays = rows.some(({ kind }) => kind === 'array' || kind === 'part');
+    return [prepareEntry, ...(withArrays ? [indexEntry] : []), ...props.menu(chosen)];
   };
   const lost = session !== null && session.lostSince !== null;
 

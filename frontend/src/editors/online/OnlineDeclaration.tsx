@@ -153,7 +153,7 @@ export function OnlineDeclaration(props: OnlineDeclarationProps) {
   const columns = useMemo(
     (): readonly GridColumn[] => [
       { id: 'expression', title: t('online.column.expression'), width: 200, grow: true },
-      { id: 'type', title: t('online.column.type'), width: 140 },
+      { id: 'type', title: t('online.column.type'), width: 170 },
       { id: 'value', title: t('online.column.value'), width: 150, grow: true },
       { id: 'prepared', title: t('online.column.prepared'), width: 120 },
       { id: 'address', title: t('online.column.address'), width: 80, code: true },

@@ -43,7 +43,7 @@ export function RecipeGrid({ definition, locked, types, comparison, selection, o
   const columns = useMemo(
     (): GridColumn[] => [
       { id: 'path', title: t('recipes.column.path'), width: WIDTHS.path, grow: true, code: true },
-      { id: 'type', title: t('recipes.column.type'), width: 90, code: true },
+      { id: 'type', title: t('recipes.column.type'), width: 130, code: true },
       ...FACTS.filter((fact) => fact !== 'path').map((fact): GridColumn => ({
         id: fact,
         title: t(`recipes.column.${fact}`),

@@ -24,7 +24,13 @@ export function ForceFiles({ runtimeId, onExport }: ForceFilesProps) {
   return (
     <>
       {onExport && <IconButton small icon={Download} label={t('forces.export')} onClick={onExport} />}
-      <FileButton icon={Upload} label={t('forces.import')} disabledReason={null} onText={take} />
+      <FileButton
+        icon={Upload}
+        label={t('forces.import')}
+        disabledReason={null}
+        named={onExport === undefined}
+        onText={take}
+      />
     </>
   );
 }

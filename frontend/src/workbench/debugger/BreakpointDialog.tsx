@@ -77,7 +77,14 @@ function BreakpointDialog({ runtimeId, order, onAnswer, onClose }: BreakpointDia
       {data && (
         <Field label={t('debugger.variable')} hint={t('debugger.variableHint')}>
           {(attributes) => (
-            <TextInput {...attributes} value={expression} onValue={setExpression} spellCheck={false} data-autofocus />
+            <TextInput
+              {...attributes}
+              className="code"
+              value={expression}
+              onValue={setExpression}
+              spellCheck={false}
+              data-autofocus
+            />
           )}
         </Field>
       )}
@@ -85,6 +92,7 @@ function BreakpointDialog({ runtimeId, order, onAnswer, onClose }: BreakpointDia
         {(attributes) => (
           <TextInput
             {...attributes}
+            className="code"
             value={condition}
             onValue={setCondition}
             spellCheck={false}
@@ -110,7 +118,9 @@ function BreakpointDialog({ runtimeId, order, onAnswer, onClose }: BreakpointDia
       )}
       {!data && (
         <Field label={t('debugger.instance')} hint={t('debugger.instanceHint')}>
-          {(attributes) => <TextInput {...attributes} value={instance} onValue={setInstance} spellCheck={false} />}
+          {(attributes) => (
+            <TextInput {...attributes} className="code" value={instance} onValue={setInstance} spellCheck={false} />
+          )}
         </Field>
       )}
       <Field label={t('debugger.task')}>

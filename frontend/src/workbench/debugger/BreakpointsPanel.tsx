@@ -66,6 +66,7 @@ export default function BreakpointsPanel() {
           <span style={{ display: 'inline-flex', alignItems: 'center', gap: 8 }}>
             <input
               type="checkbox"
+              className={styles.box}
               aria-label={t('debugger.enabled')}
               checked={isEnabled(one)}
               onChange={(event) => runtimeId !== undefined && enable(runtimeId, one, event.target.checked)}
@@ -94,7 +95,7 @@ export default function BreakpointsPanel() {
       {
         id: 'hits',
         title: t('debugger.column.hits'),
-        width: 170,
+        width: 240,
         hint: (one) => hitsText(one, t),
         cell: (one) => (
           <span>
