@@ -103,6 +103,9 @@ def test_a_day_of_debugging(app: FastAPI, engineer: TestClient) -> None:
     wrong = engineer.put(f"{DEBUG}/breakpoints/77", json={"breakpoint": {"place": place}})
     assert wrong.status_code == 404
     assert engineer.post(f"{DEBUG}/breakpoints", json={"breakpoint": {"kind": "line"}}).status_code == 409
+    for enabled in (False, True):
+        state = ask(engineer, "PUT", "/breakpoints", json={"enabled": enabled})
+        assert [one["order"]["enabled"] for one in state["breakpoints"]] == [enabled]
     ask(engineer, "DELETE", f"/breakpoints/{first['id']}")
     ask(engineer, "POST", "/control", json={"command": "continue"})
     until(lambda: not engineer.get(RUNTIME).json()["halted"])
