@@ -17,8 +17,9 @@ from tappet.lang.source import Source
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.flight_recording import FlightRecording, read_recording, write_recording
 from tappet.runtime.local import ApplicationException, LocalRuntime
-from tappet.runtime.replay import Replayed, ReplayError, replay
+from tappet.runtime.replay import replay
 from tappet.runtime.replay_comparison import Difference, SameProgram
+from tappet.runtime.replay_result import Replayed, ReplayError
 
 BOTTLE = """
 TYPE E_State : (Idle, Filling, Done); END_TYPE

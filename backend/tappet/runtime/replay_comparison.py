@@ -14,6 +14,8 @@ from tappet.runtime.pointers import moved_image
 
 MOST_DIFFERENCES = 20
 """Variables that are named of the first cycle that differs."""
+MOST_COUNTED = 200
+"""Variables that count for how far two images are from each other."""
 _TEXTS = ("string", "wstring")
 _POINTER = 8
 """Bytes of an address."""
@@ -33,6 +35,9 @@ class Comparison(Protocol):
 
     def difference(self, cycle: int, recorded: bytes, now: bytes) -> Difference | None:
         """What differs at the end of a cycle."""
+
+    def distance(self, recorded: bytes, now: bytes) -> int:
+        """How many variables differ, of the first ones."""
 
 
 class SameProgram:
@@ -55,6 +60,11 @@ class SameProgram:
             return None
         rows = list(islice(self._rows(then, now), MOST_DIFFERENCES))
         return Difference(cycle, tuple(rows)) if rows else None
+
+    def distance(self, recorded: bytes, now: bytes) -> int:
+        """How many variables differ, of the first ones."""
+        then, _ = moved_image(self._pointers, recorded[: len(now)], self._then, self._now, now)
+        return sum(1 for _ in islice(self._rows(then, now), MOST_COUNTED))
 
     def _rows(self, then: bytes, now: bytes) -> Iterator[tuple[str, str, str]]:
         for name in _distinct(name_at(self._symbols, at) for at in differing(then, now)):
@@ -84,6 +94,10 @@ class AcrossPrograms:
         """What differs at the end of a cycle."""
         rows = list(islice(self._rows(recorded, now), MOST_DIFFERENCES))
         return Difference(cycle, tuple(rows)) if rows else None
+
+    def distance(self, recorded: bytes, now: bytes) -> int:
+        """How many variables differ, of the first ones."""
+        return sum(1 for _ in islice(self._rows(recorded, now), MOST_COUNTED))
 
     def _rows(self, recorded: bytes, now: bytes) -> Iterator[tuple[str, str, str]]:
         for name in _distinct(name_at(self._old, at) for at in self._differing(recorded, now)):

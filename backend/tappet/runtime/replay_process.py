@@ -19,7 +19,7 @@ from tappet.runtime.exception_report import ExceptionReport
 from tappet.runtime.flight_recording import RecordingError, read_recording
 
 if TYPE_CHECKING:
-    from tappet.runtime.replay import Replayed
+    from tappet.runtime.replay_result import Replayed
 
 LIMIT_S = 600
 COMMAND = (sys.executable, "-m", "tappet.runtime.replay_process")
@@ -84,7 +84,8 @@ def result_of(played: Replayed) -> ReplayResult:
 
 def perform(order: ReplayOrder) -> ReplayResult:
     """Carries an order out in this process."""
-    from tappet.runtime.replay import ReplayError, replay  # whoever only sends orders does without a soft PLC
+    from tappet.runtime.replay import replay  # whoever only sends orders does without a soft PLC
+    from tappet.runtime.replay_result import ReplayError
 
     try:
         code = CodePackage.from_bytes(order.code) if order.code is not None else None

@@ -91,7 +91,7 @@ def outcome_of(test: RecordedTest, recording: FlightRecording, result: ReplayRes
     seconds = _seconds(recording, result.cycles)
     if result.problem is not None:
         return TestOutcome(test.name, "error", 1, seconds, (Failure(result.problem),))
-    failure = _same_fault(result, _slack(recording)) if test.same_fault else _no_fault(result)
+    failure = _same_fault(result) if test.same_fault else _no_fault(result)
     if failure is None:
         return TestOutcome(test.name, "passed", 1, seconds, (), tuple(result.notes))
     return TestOutcome(test.name, "failed", 1, seconds, (failure,), tuple(result.notes))
@@ -102,11 +102,11 @@ def _no_fault(result: ReplayResult) -> Failure | None:
     return None if fault is None else _fault(fault, f"cycle {fault.cycle}: {fault.message}")
 
 
-def _same_fault(result: ReplayResult, slack: int) -> Failure | None:
+def _same_fault(result: ReplayResult) -> Failure | None:
     recorded, fault = result.recorded, result.fault
     if recorded is None:
         return Failure("nothing has failed in the recording, so no fault can come again")
-    if fault is not None and _same(fault, recorded, slack):
+    if fault is not None and _same(fault, recorded):
         return None
     if fault is not None:
         text = f"cycle {fault.cycle}: {fault.message}"
@@ -120,19 +120,14 @@ def _same_fault(result: ReplayResult, slack: int) -> Failure | None:
     return Failure(f"{missing}; cycle {difference.cycle} is the first that differs: {values}")
 
 
-def _same(one: ExceptionReport, other: ExceptionReport, slack: int) -> bool:
+def _same(one: ExceptionReport, other: ExceptionReport) -> bool:
     """Whether two faults are the same one. The line may be another one in an edited text; where and when a
     cycle takes too long is a matter of time."""
     if (one.name, one.task.upper()) != (other.name, other.task.upper()):
         return False
     if one.name == Fault.WATCHDOG.name:
         return True
-    return one.pou.upper() == other.pou.upper() and abs(one.cycle - other.cycle) <= slack
-
-
-def _slack(recording: FlightRecording) -> int:
-    """By how many cycles a fault may come earlier or later: the order of tasks of real time is not kept."""
-    return 0 if recording.virtual or len(recording.tasks) == 1 else 1
+    return (one.pou.upper(), one.cycle) == (other.pou.upper(), other.cycle)
 
 
 def _seconds(recording: FlightRecording, cycles: int) -> float:
