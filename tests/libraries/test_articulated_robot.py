@@ -234,7 +234,8 @@ def test_wrist_exactly_in_line(transform: Transformations) -> None:
     """At its zeros a robot is in line without any rounding."""
     size = DIMENSIONS["offset wrist, Z up"]
     flange = models.articulated([0.0] * 6, size)[None]
-    old: Given = {f"dQ{axis}_old": OFFSETS[axis] for axis in AXES} | {"dQ3_old": 35.0 + OFFSETS[3]}
+    old: Given = {f"dQ{axis}_old": OFFSETS[axis] for axis in AXES}
+    old["dQ3_old"] = 35.0 + OFFSETS[3]
     for hand in (1.0, -1.0):
         outputs, found = _inverse(
             transform,

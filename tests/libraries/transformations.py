@@ -177,7 +177,7 @@ class Transformations:
 def _array(address: int) -> Numbers:
     """The rows of an array of the program, in place."""
     values = (ctypes.c_double * (PER_CYCLE * WIDTH)).from_address(address)
-    return np.frombuffer(values, dtype=np.float64).reshape(PER_CYCLE, WIDTH)
+    return np.ctypeslib.as_array(values).reshape(PER_CYCLE, WIDTH)
 
 
 @contextmanager

@@ -9,12 +9,13 @@ from pathlib import Path
 import pytest
 
 from tappet.libraries import load
-from tappet.libraries.catalog import Item, items
+from tappet.libraries.catalog import Item
 from tappet.manual.examples import read_examples
 from tappet.manual.pages import (
     FOLDERS,
     LIBRARY,
     examples_of,
+    items_of,
     public_methods,
     sentences_of_examples,
 )
@@ -40,7 +41,7 @@ def _shown() -> dict[str, set[str]]:
         library = load(name)
         shown[name] = {
             sentence
-            for item in items(library)
+            for item in items_of(name)
             for one in (item, *public_methods(library, item))
             for comment in _of(one)
             for sentence in sentences(comment)

@@ -14,7 +14,7 @@ from tappet.libraries import load
 from tappet.libraries.catalog import items
 from tappet.manual.examples import Example
 from tappet.manual.library_errors import errors_of
-from tappet.manual.pages import FOLDERS, group_of, state_of
+from tappet.manual.pages import CNC, FOLDERS, group_of, items_of, state_of
 from tappet.manual.recording import ExampleError, Recording, record
 from tappet.manual.simplified import simplified
 from tappet.manual.written import all_examples, made, stored, write
@@ -64,6 +64,21 @@ def test_every_item_of_the_cam_builder_has_a_page_in_both_languages() -> None:
     assert "](../../blocks/zh/MC_CAM_REF.md)" in written()["cam-builder/zh/CamBuilder.md"]
 
 
+def test_every_transformation_has_a_page_in_both_languages() -> None:
+    names = {item.name for item in items(load(CNC)) if item.name.upper().startswith("SMC_TRAFO")}
+    assert len(names) > 40
+    assert names <= {item.name for item in items_of(CNC)}
+    for folder in ("cnc", "cnc/zh"):
+        index = written()[f"{folder}/README.md"]
+        for name in names:
+            assert f"{folder}/{name}.md" in written()
+            assert f"[{name}]({name}.md)" in index
+    page = written()["cnc/SMC_TRAFO_GantryCutter2.md"]
+    assert "| `dOffsetX` | `LREAL` | `0` | Additional offset of the X axis |" in page, "of the INTERNAL base"
+    assert "[AXIS_REF_SM3](../blocks/AXIS_REF_SM3.md)" in written()["cnc/SMC_TRAFOF_Gantry2.md"]
+    assert [item.name for item in items_of(CNC) if group_of(item) == "other"] == []
+
+
 def test_every_function_block_with_an_example_has_a_chart() -> None:
     blocks = {item.name for item in items(load("SM3_Basic")) if item.kind == "function_block"}
     names = {one.example.name for one in recordings()} & blocks
@@ -104,7 +119,7 @@ def test_every_block_has_an_example() -> None:
     blocks = {
         item.name
         for library in FOLDERS
-        for item in items(load(library))
+        for item in items_of(library)
         if item.kind in ("function_block", "function")
     }
     examples = {one.example.name for one in recordings()}

@@ -20,7 +20,8 @@ from tappet.translation.library_comments import said
 
 LIBRARY = "SM3_Basic"
 CAM_BUILDER = "SM3_CamBuilder"
-FOLDERS = {LIBRARY: "blocks", CAM_BUILDER: "cam-builder"}
+CNC = "SM3_CNC"
+FOLDERS = {LIBRARY: "blocks", CAM_BUILDER: "cam-builder", CNC: "cnc"}
 """Where the pages of a library lie, by the library."""
 
 LANGUAGES: tuple[Language, ...] = ("en", "zh")
@@ -57,6 +58,11 @@ def _rows() -> dict[str, dict[str, str]]:
     return {row["name"]: row for row in csv.DictReader(text.splitlines())}
 
 
+def items_of(library: str) -> list[Item]:
+    """The items of a library that the manual has: of SM3_CNC those with a row in `blocks.csv`."""
+    return [item for item in items(load(library)) if library != CNC or item.name in _rows()]
+
+
 def group_of(item: Item) -> str:
     """Key of the group in which the index shows an item."""
     if item.kind not in _POUS:
@@ -65,8 +71,8 @@ def group_of(item: Item) -> str:
 
 
 def _group_in(library: str, item: Item) -> str:
-    """What one library is about is one group."""
-    return group_of(item) if library == LIBRARY or item.kind not in _POUS else "cams"
+    """What the cam builder is about is one group."""
+    return "cams" if library == CAM_BUILDER and item.kind in _POUS else group_of(item)
 
 
 def _text_of(library: Library, name: str) -> str:
@@ -88,7 +94,7 @@ class _Manual:
     """The pages in a language."""
 
     def __init__(self, library: str, examples: Mapping[str, Example], language: Language) -> None:
-        self.items = {item.name: item for item in items(load(library))}
+        self.items = {item.name: item for item in items_of(library)}
         self.folder = FOLDERS[library] + ("/zh" if language == "zh" else "")
         self._name = library
         self._library = load(library)

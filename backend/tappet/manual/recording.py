@@ -21,7 +21,7 @@ from tappet.manual.examples import AXES, CYCLE_MS, Example
 from tappet.runtime.flight import FlightSettings
 from tappet.runtime.local import LocalRuntime
 
-LIBRARIES = ("SM3_Basic", "SM3_CamBuilder")
+LIBRARIES = ("SM3_Basic", "SM3_CamBuilder", "SM3_CNC")
 NS_PER_MS = 1_000_000
 TOLERANCE = 1e-6
 _CYCLE = """PROGRAM Cycle

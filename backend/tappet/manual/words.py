@@ -85,6 +85,10 @@ GROUPS: dict[str, tuple[str, str]] = {
     "diagnosis": ("Status and diagnosis", "状态与诊断"),
     "parameters": ("Parameters and limits", "参数与限制"),
     "drives": ("Axes and drives", "轴与驱动器"),
+    "portals": ("Portals", "龙门系统"),
+    "arms": ("SCARA, palletizers and robots", "SCARA、码垛机与机器人"),
+    "parallel": ("Parallel kinematics", "并联运动系统"),
+    "frames": ("Directions and coordinate systems", "方向与坐标系"),
     "other": ("Others", "其他"),
     "types": ("Types", "类型"),
 }

@@ -17,6 +17,8 @@ MADE = (
     "blocks/charts/*.svg",
     "cam-builder/*.md",
     "cam-builder/zh/*.md",
+    "cnc/*.md",
+    "cnc/zh/*.md",
     "plcopen-compliance.md",
     "zh/plcopen-compliance.md",
 )
