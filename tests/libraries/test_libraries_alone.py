@@ -1,4 +1,4 @@
-"""Each library builds where no other one is referenced: what it uses it requires itself; without a message."""
+"""Each library builds without a message where no other one is referenced: what it uses it requires itself."""
 
 from __future__ import annotations
 
