@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -31,7 +31,7 @@ def translation(x: Numbers | float, y: Numbers | float, z: Numbers | float) -> N
     return move
 
 
-def chain(links: Sequence[tuple[Numbers | float, Numbers | float, float, float]]) -> Numbers:
+def chain(links: Sequence[tuple[Numbers | float, Numbers | float, Numbers | float, float]]) -> Numbers:
     """The end of links by their Denavit-Hartenberg parameters: angle, offset, length, twist."""
     pose: Numbers = np.eye(4)
     for theta, d, a, alpha in links:
@@ -67,7 +67,7 @@ def palletizer(
     )
 
 
-def articulated(joints: Sequence[Numbers | float], dimensions: dict[str, float]) -> Numbers:
+def articulated(joints: Sequence[Numbers | float], dimensions: Mapping[str, Numbers | float]) -> Numbers:
     """The flange of an articulated robot with six axes."""
     of = dimensions
     q = joints
@@ -106,10 +106,10 @@ def bipod_rods(
 def delta_rods(
     point: Sequence[Numbers],
     angles: Sequence[Numbers],
-    arm: float,
-    motors: float,
-    platform: float,
-    turned: float,
+    arm: Numbers | float,
+    motors: Numbers | float,
+    platform: Numbers | float,
+    turned: Numbers | float,
     pair: float,
 ) -> Numbers:
     """Lengths of the six rods of a delta robot, axis and rod of the pair in the last two dimensions."""

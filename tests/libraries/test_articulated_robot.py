@@ -191,6 +191,29 @@ def test_eight_solutions(
         assert np.all(np.max(difference, axis=0)[both] > 1e-6), "they are solutions of their own"
 
 
+def test_robots_of_any_dimensions(transform: Transformations, random: np.random.Generator) -> None:
+    """Each row is a robot of its own; its joints may not have a forearm of no length."""
+    sizes = {
+        name: random.choice([0.0, 1.0, -1.0], ROWS) * 10.0 ** random.uniform(-2.0, 3.0, ROWS)
+        for name in ("dA1", "dA3", "dD1", "dD3", "dD4", "dD6")
+    }
+    sizes["dA2"] = 10.0 ** random.uniform(-2.0, 3.0, ROWS)
+    length = np.asarray(sum(np.abs(value) for value in sizes.values()))
+    flange = models.articulated(list(_joints(random)), {**sizes, "bZUp": 1.0})
+    reached = np.zeros(ROWS, dtype=bool)
+    for states in SOLUTIONS:
+        given: Given = {f"config.{name}": value for name, value in sizes.items()} | {"config.bZUp": True}
+        given |= _pose(flange) | dict(zip(STATES, states, strict=True))
+        found = transform(INVERSE, given, ["bError", *(f"dQ{axis}" for axis in AXES)])
+        good = found["bError"] == 0.0
+        again = models.articulated([found[f"dQ{axis}"] for axis in AXES], {**sizes, "bZUp": 1.0})
+        error = np.max(np.abs(again[:, :3, 3] - flange[:, :3, 3]), axis=1) / length
+        assert np.all(error[good] <= RELATIVE)
+        assert np.all(np.abs(again[good, :3, :3] - flange[good, :3, :3]) <= RELATIVE)
+        reached |= good
+    assert np.all(reached == ((sizes["dA3"] != 0.0) | (sizes["dD4"] != 0.0)))
+
+
 @pytest.mark.parametrize("convention", CONVENTIONS)
 def test_poses_of_every_convention(
     transform: Transformations, random: np.random.Generator, convention: str

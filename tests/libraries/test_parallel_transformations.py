@@ -144,3 +144,39 @@ def test_delta_robot(transform: Transformations, random: np.random.Generator) ->
         near(back[name][regular], point[regular, index], arm + rod)
     joint = transform("SMC_TRAFO_Tripod_Arm", {**pose, **shared, "dMaxAngleBallJoint": 20.0}, ["bError"])
     assert np.all((joint["bError"] == 0.0) == (good & (np.max(tilts, axis=0) <= 20.0)))
+
+
+def test_delta_robots_of_any_dimensions(transform: Transformations, random: np.random.Generator) -> None:
+    """Each row is a robot of its own; where its three elbows are nearly in line no point is determined."""
+    arm = 10.0 ** random.uniform(-1.0, 2.0, ROWS)
+    rod = arm * random.uniform(1.05, 5.0, ROWS)
+    motors = arm * random.uniform(0.0, 3.0, ROWS)
+    platform = motors * random.uniform(0.0, 1.2, ROWS)
+    turned = random.uniform(-360.0, 360.0, ROWS)
+    reach = arm + rod
+    point = (reach * random.uniform([[-0.4], [-0.4], [-1.0]], [[0.4], [0.4], [-0.1]], (3, ROWS))).T
+    shared: Given = {
+        "dArmLength1": arm,
+        "dArmLength2": rod,
+        "dArm1Radius": motors,
+        "dStewartRadius": platform,
+    }
+    shared["dRotationOffset"] = turned
+    pose: Given = {f"pi.d{c}": point[:, i] for i, c in enumerate("XYZ")}
+    there = transform("SMC_TRAFO_Tripod_Arm", {**pose, **shared}, ["bError", "dA", "dB", "dC"])
+    good = there["bError"] == 0.0
+    angles = [there[f"d{axis}"] for axis in "ABC"]
+    lengths = models.delta_rods(list(point.T), angles, arm, motors, platform, turned, 0.0)
+    near(lengths[good, :, 0], rod[good, None], reach[good, None])
+    elbows = []
+    for axis, angle in enumerate(angles):
+        base = models.rotation(2, turned + 120.0 * axis) @ models.translation(motors - platform, 0.0, 0.0)
+        elbows.append((base @ models.rotation(1, angle) @ models.translation(arm, 0.0, 0.0))[:, :3, 3])
+    area = np.linalg.norm(np.cross(elbows[1] - elbows[0], elbows[2] - elbows[0]), axis=1) / reach**2
+    regular = good & (area > 0.02) & (_lower(point, np.stack(elbows)) > 0.02 * rod)
+    assert np.count_nonzero(regular) > 0.3 * ROWS
+    drives = {f"Drive{axis}": there[f"d{axis}"] for axis in "ABC"}
+    back = back_from(transform, "SMC_TRAFOF_Tripod_Arm", drives, shared, "bError", "dx", "dy", "dz")
+    assert not np.any(back["bError"][regular])
+    for index, name in enumerate(("dx", "dy", "dz")):
+        near(back[name][regular], point[regular, index], reach[regular])
