@@ -21,7 +21,7 @@ from .said_in_code import PLACE, templates, texts
 
 PARTS = (
     "project", "motion", "server", "runtime", "traces", "documentation", "libraries",
-    "codegen/faults.py", "codegen/generate.py", "codegen/literals.py", "codegen/online.py",
+    "cnc", "codegen/faults.py", "codegen/generate.py", "codegen/literals.py", "codegen/online.py",
     "codegen/symbol_map.py", "codegen/values.py", "codegen/expressions/compiler.py",
     "codegen/expressions/operators.py", "codegen/expressions/places.py", "disk_full.py", "iec/listing.py",
 )  # fmt: skip

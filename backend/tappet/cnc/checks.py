@@ -17,8 +17,9 @@ _VARIABLE = -1
 class _Checks:
     """Goes through lines; remembers the travel command and the block numbers."""
 
-    def __init__(self) -> None:
+    def __init__(self, in_space: bool) -> None:
         self.travel: int | None = None
+        self.space = in_space
         self.numbers: dict[int, int] = {}
         self.jumps: list[tuple[Line, Word]] = []
 
@@ -53,6 +54,7 @@ class _Checks:
                 )
             elif word.address == "PROBE":
                 yield _at(line, word, "Probes are not supported; leave PROBE out")
+            yield from _range(line, word)
         if not commands:
             yield from self._modal_line(line)
         elif commands[0].address == "M":
@@ -75,7 +77,10 @@ class _Checks:
                 self.travel = number
             if number == 20:
                 self.jumps += [(line, target) for target in line.words if target.address == "L"]
+            if 15 <= number <= 19:
+                self.space = number != 15
             yield from _words(line, f"G{number}", command, word)
+            yield from self._element(line, number, word)
 
     def _modal_line(self, line: Line) -> Iterator[Problem]:
         rest = [word for word in line.words if word.address not in MODAL]
@@ -85,6 +90,20 @@ class _Checks:
             yield _at(line, rest[0], "No line before has a travel command; write one such as G1 in front")
         elif self.travel != _VARIABLE:
             yield from _words(line, f"G{self.travel}", COMMANDS[self.travel], rest[0])
+            yield from self._element(line, self.travel, rest[0])
+
+    def _element(self, line: Line, number: int, place: Word) -> Iterator[Problem]:
+        """What an arc, ellipse or parabola cannot be."""
+        present = {word.address for word in line.words}
+        if not present - MODAL - {"G"}:
+            return
+        if number in (2, 3):
+            if not self.space and present & {"R", "I", "J", "K"} == {"K"}:
+                yield _at(line, place, f"G{number} needs one of I, J, R; K is no centre in 2D mode")
+            if "R" in present and present & {"I", "J", "T", *("K" if self.space else "")}:
+                yield _at(line, place, f"G{number} has a radius R, or a centre I, J, K; leave one out")
+        elif number in (6, 8, 9) and self.space:
+            yield _at(line, place, f"There is no G{number} in 3D mode; write G15 in front, and G17 behind it")
 
     def _switches(self, line: Line) -> Iterator[Problem]:
         open_switch: Word | None = None
@@ -134,6 +153,16 @@ def _repeated(line: Line) -> Iterator[Problem]:
         seen.add(key)
 
 
+def _range(line: Line, word: Word) -> Iterator[Problem]:
+    """Values that have no sense whatever the line is."""
+    if (
+        word.variable is None
+        and word.value < 0
+        and (word.address[0] == "F" or word.address in ("S", "T", "R"))
+    ):
+        yield _at(line, word, f"'{word.address}' is not below 0")
+
+
 def _words(line: Line, name: str, command: Command, place: Word) -> Iterator[Problem]:
     """Words that the command does not know, and one that it needs."""
     switched = any(word.address == "H" for word in line.words)
@@ -143,13 +172,15 @@ def _words(line: Line, name: str, command: Command, place: Word) -> Iterator[Pro
         if address == "G" or address in LIMITLESS or address == "PROBE":
             continue
         present.add(address)
-        stray = command.travels and address in ("L", "O") and not switched
+        stray = "H" in command.words and address in ("L", "O") and not switched
         if stray or (address not in command.words and address not in MODAL):
             yield _at(
                 line,
                 word,
                 f"{name} has no use for '{address}'; write it into a line of its own, or leave it out",
             )
+        elif "O" in command.words and "H" not in command.words and address == "O" and word.variable is None:
+            yield _at(line, word, f"O of {name} is a variable, such as O$counter$")
     moves = present - MODAL
     if command.needs and not present & command.needs and (moves or not command.travels):
         yield _at(line, place, f"{name} needs one of {', '.join(sorted(command.needs))}")
@@ -177,9 +208,12 @@ def _at(line: Line, word: Word, message: str, severity: Severity = "error") -> P
     return Problem(line.place, word.column, max(word.length, 1), message, severity)
 
 
-def check(lines: Iterable[Line]) -> list[Problem]:
-    """All problems of a program, those of the parser among them, in the order of the text."""
-    checks = _Checks()
+def check(lines: Iterable[Line], *, in_space: bool = False) -> list[Problem]:
+    """All problems of a program, those of the parser among them, in the order of the text.
+
+    `in_space`: the program begins in 3D mode.
+    """
+    checks = _Checks(in_space)
     found: list[Problem] = []
     for line in lines:
         found += line.problems
