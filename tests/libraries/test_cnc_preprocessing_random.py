@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from tests.libraries.cnc_chain import LARGE, Block, Result, gaps, length_of, through, turn
 from tests.libraries.cnc_paths import CCLW, CLW, LIN, MCOMMAND, SPLINE, Geo, line, path, position
 
-SETTINGS = settings(max_examples=25, deadline=None)
+SETTINGS = settings(max_examples=25, deadline=None, phases=[Phase.generate])
 BLOCKS = {
     "SMC_TranslateQueue3D": "vec := vec",
     "SMC_RotateQueue2D": "dPhi := 30",
@@ -91,7 +91,7 @@ def test_a_path_stays_one_path(name: str, objects: list[Geo]) -> None:
 
 
 @pytest.mark.parametrize("name", BLOCKS)
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10, deadline=None, phases=[Phase.generate])
 @given(
     objects=paths(),
     capacity=st.sampled_from([5, 6, 7, 9]),
@@ -116,7 +116,7 @@ CHAIN = [
 ]
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10, deadline=None, phases=[Phase.generate])
 @given(paths(marks=2 | 16), st.sampled_from([5, 6, 8]), st.integers(1, 4), st.integers(1, 4))
 def test_a_chain_with_tiny_buffers(objects: list[Geo], capacity: int, gives: int, takes: int) -> None:
     """Spec CNCR-01, CNCR-08: blocks one behind the other give the same with buffers of any size."""
@@ -127,7 +127,7 @@ def test_a_chain_with_tiny_buffers(objects: list[Geo], capacity: int, gives: int
 
 
 @pytest.mark.parametrize("name", CHANGES_NOTHING)
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10, deadline=None, phases=[Phase.generate])
 @given(st.lists(length, min_size=1, max_size=6))
 def test_a_straight_path_stays(name: str, lengths: list[float]) -> None:
     """Spec 13: no corner, nothing to do."""
