@@ -117,3 +117,95 @@ def test_random_paths_with_limited_jerk(path: list[Object], override: float, mod
     assert calls * 0.02 >= fastest - 1e-6
     jerk = np.diff(np.concatenate([[0.0, 0.0], found["aV"]]), 2) / 0.02**2
     assert np.abs(jerk).max() <= JERK * (1 + 1e-6)
+
+
+CHANGES = st.lists(
+    st.tuples(
+        st.integers(1, 50),
+        st.fixed_dictionaries(
+            {
+                "bSlow_Stop": st.sampled_from([False, False, True]),
+                "bQuick_Stop": st.sampled_from([False, False, False, True]),
+                "bEmergency_Stop": st.sampled_from([False] * 9 + [True]),
+                "bSingleStep": st.sampled_from([False, False, True]),
+                "bWaitAtNextStop": st.sampled_from([False, False, True]),
+                "dOverride": st.sampled_from([1.0, 1.0, 0.2, 1.5]),
+            }
+        ),
+    ),
+    min_size=1,
+    max_size=12,
+)
+QUIET = {"bSlow_Stop": False, "bQuick_Stop": False, "bEmergency_Stop": False, "bSingleStep": False, "bWaitAtNextStop": False}
+QUICK = 700.0
+
+
+@settings(max_examples=100, deadline=None)
+@given(PATHS, CHANGES, st.sampled_from(MODES))
+def test_any_stops_and_overrides(
+    path: list[Object], changes: list[tuple[int, dict[str, float]]], mode: str
+) -> None:
+    """Spec 7.2: whatever is pressed when, the path is gone forwards to its end; velocity and its changes keep the limits."""
+    peak = math.pi / 2 if mode == "SIGMOID" else 1.0
+    up = peak * max(item.acceleration for item in path) * CYCLE
+    down = peak * max(QUICK, *(item.deceleration for item in path)) * CYCLE
+    total = sum(item.length for item in path)
+    with motion(path, iVelMode=mode, dJerkMax=JERK, dQuickDeceleration=QUICK) as running:
+        velocity = place = way = 0.0
+        for calls, inputs in [*changes, (2000, QUIET), (2000, QUIET), (2000, QUIET), (2000, QUIET | {"dOverride": 1.0})]:
+            running.set(**inputs)
+            found = running.calls(calls)
+            assert found["aError"].max() == 0
+            change = np.diff(np.concatenate([[velocity], found["aV"]]))
+            assert change.max() <= up + 1e-6
+            assert change.min() >= -down - 1e-6 or inputs["bEmergency_Stop"]
+            assert np.diff(np.concatenate([[place], found["aS"]])).min() >= -1e-12
+            # The way of each cycle is that of the position
+            assert found["aWay"][-1] - way == pytest.approx(found["aS"][-1] - place, abs=1e-9)
+            velocity, place, way = found["aV"][-1], found["aS"][-1], found["aWay"][-1]
+            if found["aDone"][-1]:
+                break
+        assert found["aDone"][-1] == 1
+        assert place == pytest.approx(total, abs=1e-9)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(1.0, 40.0), st.integers(1, 120), st.sampled_from(["QUADRATIC", "QUADRATIC_SMOOTH"]), st.booleans())
+def test_a_stop_with_limited_jerk(length: float, calls: int, mode: str, quick: bool) -> None:
+    """A stop at any time of the motion, and the way on: the acceleration has no jumps."""
+    stop = "bQuick_Stop" if quick else "bSlow_Stop"
+    with motion([Object(length)] * 3, iVelMode=mode, dJerkMax=JERK, dQuickDeceleration=300.0) as running:
+        first = running.calls(calls)["aV"]
+        running.set(**{stop: True})
+        second = running.calls(400)
+        assert second["aV"][-1] == 0
+        running.set(**{stop: False})
+        third = running.calls(1200)
+    assert third["aDone"][-1] == 1
+    velocity = np.concatenate([[0.0, 0.0], first, second["aV"], third["aV"]])
+    assert np.abs(np.diff(velocity, 2)).max() / CYCLE**2 <= JERK * (1 + 1e-6)
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.floats(0.5, 60.0),
+    st.floats(5.0, 80.0),
+    st.floats(50.0, 400.0),
+    st.floats(500.0, 20000.0),
+    st.integers(1, 12),
+)
+def test_quadratic_is_as_fast_as_ruckig(length: float, velocity: float, acceleration: float, jerk: float, parts: int) -> None:
+    """One line, or the same in pieces: the duration is that of ruckig's time-optimal motion."""
+    ruckig = pytest.importorskip("ruckig")
+    given_, out = ruckig.InputParameter(1), ruckig.Trajectory(1)
+    given_.target_position, given_.max_velocity, given_.max_acceleration = [length], [velocity], [acceleration]
+    given_.max_jerk = [jerk]
+    ruckig.Ruckig(1).calculate(given_, out)
+    expected = out.duration
+    path = [Object(length / parts, velocity, acceleration, acceleration)] * parts
+    with motion(path, iVelMode="QUADRATIC", dJerkMax=jerk) as running:
+        found = running.calls(min(2000, math.ceil(expected / CYCLE) + 20))
+    calls = int(np.argmax(found["aDone"] > 0)) + 1
+    assert expected - 1e-6 <= calls * CYCLE <= expected + CYCLE + 1e-6
+    times = np.arange(1, calls) * CYCLE
+    assert found["aS"][: calls - 1] == pytest.approx([out.at_time(float(t))[0][0] for t in times], abs=1e-6)
