@@ -12,6 +12,7 @@ from tests.libraries.st_program import run
 
 CAPACITY = 12
 STEPS = 3000
+PATTERN = 30
 APPEND, CHECK, INTERPOLATE = range(3)
 CYCLE = 0.01
 PROGRAM = f"""
@@ -25,7 +26,8 @@ VAR
     read    : SM3_CNC.SMC_GetMParameters := (bEnable := TRUE);
     xFilled : BOOL;
     nSteps, n, nObjects, nNext : DINT;
-    aStep   : ARRAY[0..{STEPS - 1}] OF DINT;
+    aStep   : ARRAY[0..{PATTERN - 1}] OF DINT;
+    nPattern : DINT := 1;
     aLength, aVelocity, aNumber : ARRAY[0..199] OF LREAL;
     nCalls  : DINT;
     dTotal, dX : LREAL;
@@ -40,7 +42,7 @@ IF NOT xFilled THEN
 END_IF
 nCalls := 0;
 FOR n := 0 TO nSteps - 1 DO
-    CASE aStep[n] OF
+    CASE aStep[n MOD nPattern] OF
         {APPEND}: Produce();
         {CHECK}: check(bExecute := TRUE, poqDataIn := ADR(queue));
         {INTERPOLATE}:
@@ -97,11 +99,11 @@ def test_nothing_is_lost_or_doubled(objects: list[tuple[float, float]], orders: 
             program.set("Main", **{f"aLength[{n}]": length, f"aVelocity[{n}]": velocity, f"aNumber[{n}]": n + 1})
         velocity_before = place_before = 0.0
         numbers: list[int] = []
-        rest = [([APPEND] * 4 + [CHECK] + [INTERPOLATE] * 5) * 300] * 10
-        for order in [*orders, *rest]:
-            program.set("Main", nSteps=len(order), **{f"aStep[{n}]": step for n, step in enumerate(order)})
+        steady = [APPEND] * 4 + [CHECK] + [INTERPOLATE] * 5
+        for order, times in [*((order, 1) for order in orders), *((steady, 300) for _ in range(10))]:
+            program.set("Main", nPattern=len(order), nSteps=len(order) * times, **{f"aStep[{n}]": step for n, step in enumerate(order)})
             program.cycle()
-            calls = order.count(INTERPOLATE)
+            calls = order.count(INTERPOLATE) * times
             if calls == 0:
                 continue
             v, s, error, switch = (
