@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.libraries.axis_group import CYCLE, AxisGroup, axis_group
+from tests.libraries.axis_group import CYCLE, ERRORS, AxisGroup, axis_group
 from tests.libraries.path_oracle import Move, durations, joined
 
 NUMBER = st.floats(0.0, 1.0)
@@ -140,27 +140,31 @@ def test_commands_at_any_time(actions: list[tuple[tuple[str, Any], int]]) -> Non
             else:
                 stronger = True  # than its own deceleration, where the path is too short for that
                 group.give(block, **inputs)
-            before = rows[-1] if rows else [0.0] * 5
             _trace(group, 1, rows)
             if block != "override":
                 group.set(block, Execute=False)
             _trace(group, cycles, rows)
-            del before
             assert group.state in ("GroupStandby", "GroupMoving", "GroupStopping")
         group.set("Override", VelFactor=1.0)
         for _ in range(3):
             _trace(group, 500, rows)
-            group.start("GoOn")
+            group.give("GoOn")
+            _trace(group, 1, rows)
+            group.set("GoOn", Execute=False)
         group.until(lambda: group.state == "GroupStandby", 400.0)
-        assert [block for block in BLOCKS if group.flag(f"{block}.Error") and group.error(block) not in (10003, 10045)] == []
+        refusals = {ERRORS["WRONG_STATE"], ERRORS["TOO_SHORT"]}
+        failed = [block for block in BLOCKS if group.flag(f"{block}.Error")]
+        assert {group.error(block) for block in failed} <= refusals
         group.cycle(2)
-        assert [block for block in (*BLOCKS, "Wait", "Halt", "Stop1", "Interrupt1") if group.flag(f"{block}.Busy")] == []
+        blocks = (*BLOCKS, "Wait", "Halt", "Stop1", "Interrupt1")
+        assert [block for block in blocks if group.flag(f"{block}.Busy")] == []
         assert group.text("Group.eError") == "SMC_NO_ERROR"
     trace = np.array(rows)
-    assert trace[:, 3].min() >= -1e-9
+    assert trace[:, 3].min() >= -1e-6
     assert trace[:, 3].max() <= 200 * (1 + 1e-9) + 2000**2 / 200
     steps = np.linalg.norm(np.diff(trace[:, :3], axis=0), axis=1)
     change = np.abs(np.diff(trace[:, 3])).max() if len(trace) > 1 else 0.0
-    assert np.all(steps <= np.maximum(trace[1:, 3], trace[:-1, 3]) * CYCLE * 1.5 + change * CYCLE + 1e-9)
+    room = np.maximum(trace[1:, 3], trace[:-1, 3]) * CYCLE * 1.5 + change * CYCLE + 1e-9 - steps
+    assert room.min() > 0, (room.argmin(), trace[room.argmin() - 2 : room.argmin() + 3])
     if not stronger:
         assert np.abs(trace[:, 4]).max() <= max(allowed) * (1 + 1e-9)
