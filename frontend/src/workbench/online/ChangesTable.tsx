@@ -89,15 +89,17 @@ export function ChangesTable({ answer, onLeave }: ChangesTableProps) {
       sort: typeText,
       hint: typeText,
     },
-    {
+  ];
+  // Few changes call something: without them the paths have its room.
+  if (changes.some(({ calls }) => calls.length > 0))
+    columns.push({
       id: 'calls',
       title: t('changes.calls'),
       width: 130,
       cell: ({ calls }) => calls.join(', '),
       sort: ({ calls }) => calls.join(', '),
       hint: ({ calls }) => calls.join(', '),
-    },
-  ];
+    });
   return (
     <div className={styles.changes}>
       <div className={styles.bar}>
