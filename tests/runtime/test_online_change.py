@@ -286,7 +286,7 @@ def test_the_changed_application_boots(tmp_path: Path) -> None:
     plc.close()
 
 
-@pytest.mark.parametrize("act", ["read", "write", "force", "unforce"])
+@pytest.mark.parametrize("act", ["read", "write", "force", "unforce", "record", "flight_read"])
 def test_places_of_the_application_before_mean_nothing_any_more(act: str) -> None:
     """An order that was under way during the change names other variables: nothing is done."""
     plc = SoftPlc(None)
@@ -302,6 +302,8 @@ def test_places_of_the_application_before_mean_nothing_any_more(act: str) -> Non
             "write": lambda: plc.write(values, old.code_id),
             "force": lambda: plc.force(values, code_id=old.code_id),
             "unforce": lambda: plc.unforce(None, code_id=old.code_id),
+            "record": lambda: plc.record([(place.offset, 4)], None, 1, 0, code_id=old.code_id),
+            "flight_read": lambda: plc.flight_read(1, [(place.offset, 4)], old.code_id),
         }
         with pytest.raises(OtherApplicationError, match="nothing was done"):
             orders[act]()

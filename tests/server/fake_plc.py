@@ -286,7 +286,7 @@ class FakePlc:
         self._need()
         return [(cycle, cycle * 10_000_000) for cycle in sorted(self.past)]
 
-    def flight_read(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
+    def flight_read(self, cycle: int, places: Sequence[tuple[int, int]], code_id: str = "") -> list[bytes]:
         if cycle not in self.past:
             raise ValueError(f"cycle {cycle} is not kept")
         return [self.past[cycle][offset : offset + size] for offset, size in places]
@@ -399,7 +399,13 @@ class FakeClient:
         return plc.info()
 
     async def record(
-        self, items: Sequence[tuple[int, int]], task: str | None, divider: int, min_interval_ns: int
+        self,
+        items: Sequence[tuple[int, int]],
+        task: str | None,
+        divider: int,
+        min_interval_ns: int,
+        *,
+        code_id: str = "",
     ) -> FakeRecorder:
         self._alive()
         if self.plc.refuses_recorders:

@@ -13,6 +13,7 @@ import pytest
 from tappet.runtime.client import RuntimeRefused
 from tappet.runtime.recorder import Frame
 from tappet.server.online.sampler import Place, SamplerPool
+from tappet.server.problems import Problem
 
 SIZE = 400
 
@@ -28,6 +29,8 @@ class Memory:
         self.recorders: list[Recording] = []
         self.begun = 0
         self.refuses = False
+        self.code_id = self.loaded = "first"
+        """Of the application whose places are known, and of the one that is loaded by now."""
         self.sent = 0
         """Bytes of values that recorders have sent."""
 
@@ -39,11 +42,21 @@ class Memory:
         yield self
 
     async def call(self, read: Any) -> list[bytes]:
+        if read.code_id != self.loaded:
+            raise Problem(409, "refused", "the application was changed meanwhile")
         return [bytes(self.image[offset : offset + size]) for offset, size in read.places]
 
     async def record(
-        self, items: Sequence[Place], task: str | None, divider: int, min_interval_ns: int
+        self,
+        items: Sequence[Place],
+        task: str | None,
+        divider: int,
+        min_interval_ns: int,
+        *,
+        code_id: str,
     ) -> Recording:
+        if code_id != self.loaded:
+            raise RuntimeRefused("refused", "the application was changed meanwhile")
         if self.refuses:
             raise RuntimeRefused("refused", "no more")
         self.begun += 1
@@ -119,6 +132,38 @@ async def test_sessions_that_want_the_same_cost_what_one_costs(sessions: int) ->
         end()
     await until(lambda: memory.recorders == [])
     assert len(pool) == 0
+
+
+async def test_places_of_an_application_are_not_recorded_in_another_one() -> None:
+    """An online change comes between the subscription and the recorder; the link learns of it later."""
+    memory = Memory()
+    pool = SamplerPool(memory)  # type: ignore[arg-type]
+    old = Seen(memory, PLACES[:3])
+    end = pool.attach(old.places, 100, old)
+    memory.loaded = "second"
+    for _ in range(20):
+        await asyncio.sleep(0)
+        memory.run_cycle()
+    assert (old.frames, memory.begun) == ([], 0)
+    end()
+    memory.code_id = "second"
+    new = Seen(memory, PLACES[:3])
+    pool.attach(new.places, 100, new)
+    await until(lambda: new.is_right() and memory.begun == 1)
+    assert old.frames == []
+
+
+async def test_a_change_between_two_wishes_ends_the_recorder_of_before() -> None:
+    memory = Memory()
+    pool = SamplerPool(memory)  # type: ignore[arg-type]
+    first, second = Seen(memory, PLACES[:3]), Seen(memory, PLACES[3:6])
+    pool.attach(first.places, 100, first)
+    await until(lambda: first.is_right() and memory.begun == 1)
+    known = len(first.frames)
+    memory.loaded = "second"
+    pool.attach(second.places, 100, second)
+    await until(lambda: memory.recorders == [])
+    assert (len(first.frames), second.frames) == (known, [])
 
 
 async def test_overlapping_wishes_share_one_recorder_that_has_each_value_once() -> None:

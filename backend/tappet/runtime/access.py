@@ -162,10 +162,11 @@ class ApplicationAccess:
         divider: int,
         min_interval_ns: int,
         frames: int = 0,
+        code_id: str = "",
     ) -> Recorder:
-        """Start a recorder at a task, the bus cycle task for None."""
+        """Start a recorder at a task, the bus cycle task for None. OtherApplicationError as in `read`."""
         with self._lock:
-            application = self._need()
+            application = self._need(code_id)
             number = application.ownership.number(task)
             return application.sampled.record(
                 RecorderSpec(tuple(items), number, divider, min_interval_ns, frames)
@@ -253,15 +254,17 @@ class ApplicationAccess:
         with self._lock:
             return self._need_flight().history()
 
-    def flight_read(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
-        """Bytes at (offset, size) at the end of a past cycle; FlightError when it is not kept."""
+    def flight_read(self, cycle: int, places: Sequence[tuple[int, int]], code_id: str = "") -> list[bytes]:
+        """Bytes at (offset, size) at the end of a past cycle; FlightError when it is not kept,
+        OtherApplicationError as in `read`."""
         with self._lock:
+            image = self._need(code_id).image
             recorder = self._need_flight()
             for offset, size in places:
-                self._need().image.check(offset, size)
+                image.check(offset, size)
             capture = recorder.capture(cycle)
-        image = recorder.rebuild(capture)  # takes its time: nobody waits for it
-        return [image[offset : offset + size] for offset, size in places]
+        past = recorder.rebuild(capture)  # takes its time: nobody waits for it
+        return [past[offset : offset + size] for offset, size in places]
 
     def flight_recording(self) -> FlightRecording:
         """What is kept, with all it takes to show and replay it elsewhere."""

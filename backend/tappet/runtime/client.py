@@ -316,9 +316,10 @@ class RuntimeClient:
         divider: int = 1,
         min_interval_ns: int = 0,
         frames: int = 0,
+        code_id: str = "",
     ) -> Recorder:
         """Frames of (offset, size) items (see the operation `Record`)."""
-        order = Record(list(items), task, divider, min_interval_ns, frames)
+        order = Record(list(items), task, divider, min_interval_ns, frames, code_id)
         asked = asyncio.ensure_future(self.call(order))
         try:
             reply = await asyncio.shield(asked)

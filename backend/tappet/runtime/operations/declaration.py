@@ -42,6 +42,10 @@ Offset = Annotated[int, Meta(ge=0, lt=1 << 48)]
 Size = Annotated[int, Meta(ge=1, lt=1 << 48)]
 Count = Annotated[int, Meta(ge=0, le=(1 << 63) - 1)]
 Text = Annotated[str, Meta(max_length=MAX_TEXT)]
+CodeId = Annotated[
+    Text,
+    Meta(description="Of the application whose places these are; refused when it is not the loaded one."),
+]
 Places = Annotated[list[tuple[Offset, Size]], Meta(max_length=MAX_ITEMS)]
 Values = Annotated[list[tuple[Offset, bytes, Bit | None]], Meta(max_length=MAX_ITEMS)]
 """(offset, bytes, bit); for a bit one byte, 0 or 1."""

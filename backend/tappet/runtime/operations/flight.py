@@ -10,7 +10,7 @@ from msgspec import Meta, Struct
 from tappet.runtime.flight import FlightStatus
 from tappet.runtime.flight_holds import ANYBODY
 from tappet.runtime.flight_recording import write_recording
-from tappet.runtime.operations.declaration import Count, Fact, Operation, Places, Rest
+from tappet.runtime.operations.declaration import CodeId, Count, Fact, Operation, Places, Rest
 from tappet.runtime.operations.instants import Instant, instant_of
 
 if TYPE_CHECKING:
@@ -115,10 +115,11 @@ class ReadFlight(Operation[list[bytes]], frozen=True):
     of_recordings: ClassVar[bool] = True
     cycle: Count
     places: Places
+    code_id: CodeId = ""
 
     def run(self, plc: SoftPlc) -> list[bytes]:
         """The image is rebuilt from what is kept."""
-        return plc.flight_read(self.cycle, self.places)
+        return plc.flight_read(self.cycle, self.places, self.code_id)
 
 
 class SaveFlight(Operation[str], frozen=True):

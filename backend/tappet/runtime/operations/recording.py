@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar
 from msgspec import Meta, Struct
 
 from tappet.runtime.errors import PlcError
-from tappet.runtime.operations.declaration import Count, Places, Session, SessionOperation, Text
+from tappet.runtime.operations.declaration import CodeId, Count, Places, Session, SessionOperation, Text
 from tappet.runtime.subscriptions import MOST_RECORDERS
 
 
@@ -32,13 +32,20 @@ class Record(SessionOperation[Recording], frozen=True):
     min_interval_ns: Count = 0
     frames: Count = 0
     """Wanted length of the ring, 0 for as many as fit into a megabyte."""
+    code_id: CodeId = ""
 
     async def serve(self, session: Session) -> Recording:
         """Frames follow until it is ended or its application is gone."""
         if len(session.subscriptions) >= MOST_RECORDERS:
             raise PlcError(f"a connection has at most {MOST_RECORDERS} recorders")
         recorder = await asyncio.to_thread(
-            session.plc.record, self.items, self.task, self.divider, self.min_interval_ns, self.frames
+            session.plc.record,
+            self.items,
+            self.task,
+            self.divider,
+            self.min_interval_ns,
+            self.frames,
+            self.code_id,
         )
         return Recording(session.subscriptions.add(recorder), recorder.spec.data_size)
 

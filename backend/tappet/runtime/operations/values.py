@@ -12,6 +12,7 @@ from tappet.codegen.symbol_types import Bit
 from tappet.runtime.forces import Origin, PlacedValue
 from tappet.runtime.operations.declaration import (
     MAX_ITEMS,
+    CodeId,
     Offset,
     Operation,
     Places,
@@ -25,10 +26,6 @@ from tappet.runtime.places import Place
 if TYPE_CHECKING:
     from tappet.runtime.plc import SoftPlc
 
-CodeId = Annotated[
-    Text,
-    Meta(description="Of the application whose places these are; refused when it is not the loaded one."),
-]
 WRITE_TIMEOUT_S = 1.0
 _POLL_S = 0.001
 

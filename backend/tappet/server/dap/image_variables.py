@@ -92,7 +92,7 @@ class ImageVariables:
             return []
         try:
             return await self._call(
-                Read(places, self._code_id) if cycle is None else ReadFlight(cycle, places)
+                Read(places, self._code_id) if cycle is None else ReadFlight(cycle, places, self._code_id)
             )
         except RuntimeRefused as error:
             raise Refused(str(error)) from error

@@ -89,7 +89,7 @@ class RecordedApplication:
         """Cycle and unix time in ns, oldest first."""
         return [(one.cycle, one.timestamp_ns) for one in self.recording.cycles]
 
-    def flight_read(self, cycle: int, places: Sequence[tuple[int, int]]) -> list[bytes]:
+    def flight_read(self, cycle: int, places: Sequence[tuple[int, int]], _code_id: str = "") -> list[bytes]:
         """Of the end of a cycle."""
         return _parts(self._past.image(self._past.index_of(cycle)), places)
 
@@ -137,7 +137,13 @@ class RecordedPlc:
         raise RuntimeRefused("refused", _REFUSAL)
 
     async def record(
-        self, items: Sequence[tuple[int, int]], task: str | None, divider: int, min_interval_ns: int
+        self,
+        items: Sequence[tuple[int, int]],
+        task: str | None,
+        divider: int,
+        min_interval_ns: int,
+        *,
+        code_id: str = "",
     ) -> Recorder:
         """Never: no task runs."""
         raise RuntimeRefused("refused", _REFUSAL)

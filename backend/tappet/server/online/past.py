@@ -16,7 +16,8 @@ async def read_past(link: RuntimeLink, cycle: int, wanted: Mapping[int, Places])
     """What each subscription shows of `cycle`, by the places of its frame. One question for all of them: the
     image is rebuilt once. Raises problems for a cycle that is not kept, and while nothing is connected."""
     places = sorted({place for listed in wanted.values() for place in listed})
+    code_id = link.code_id
     async with link.client() as client:
-        values = await client.call(ReadFlight(cycle, places))
+        values = await client.call(ReadFlight(cycle, places, code_id))
     held = dict(zip(places, values, strict=True))
     return {id: b"".join(held[place] for place in listed) for id, listed in wanted.items() if listed}

@@ -68,6 +68,8 @@ class Sampler:
     def __init__(self, link: RuntimeLink, interval_ms: int) -> None:
         self._link = link
         self.interval_ms = interval_ms
+        self._code_id = link.code_id
+        """Of the application whose places these are: in another one they are those of other variables."""
         self.selections: dict[tuple[Place, ...], Selection] = {}
         self.recorded: frozenset[Place] = frozenset()
         """What the frames hold."""
@@ -148,7 +150,9 @@ class Sampler:
         self._arrange()
         await self._poll(client)
         try:
-            return await client.record(sorted(self.recorded), None, 1, self.interval_ms * 1_000_000)
+            return await client.record(
+                sorted(self.recorded), None, 1, self.interval_ms * 1_000_000, code_id=self._code_id
+            )
         except RuntimeRefused as refusal:
             log.warning("%s records no more (%s); values are read instead", self._link.name, refusal)
             return None
@@ -203,7 +207,7 @@ class Sampler:
 
     async def _poll(self, client: PlcClient) -> None:
         recorded = self.recorded
-        values = await client.call(Read(sorted(recorded)))
+        values = await client.call(Read(sorted(recorded), self._code_id))
         if recorded is self.recorded:
             self._give(Frame(self._last.cycle if self._last else 0, time.time_ns(), b"".join(values)))
 

@@ -47,9 +47,16 @@ class PlcClient(Protocol):
         """Keeps the archive of a project in the controller."""
 
     async def record(
-        self, items: Sequence[tuple[int, int]], task: str | None, divider: int, min_interval_ns: int
+        self,
+        items: Sequence[tuple[int, int]],
+        task: str | None,
+        divider: int,
+        min_interval_ns: int,
+        *,
+        code_id: str = "",
     ) -> Recorder:
-        """Samples (offset, size) at the end of the cycles of a task."""
+        """Samples (offset, size) at the end of the cycles of a task; refused where the places are those of
+        another application than the loaded one."""
 
     def on_event(self, callback: Callable[[RuntimeEvent], None]) -> None:
         """Calls back with `state`, `exception`, `forces`, `lost` ... in the event loop."""

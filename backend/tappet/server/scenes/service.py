@@ -97,8 +97,9 @@ class PastScene(SceneServer):
     async def show(self, cycle: int) -> None:
         """Puts everything where it was at the end of `cycle`; raises problems for one that is not kept."""
         variables = SceneVariables(self._link.loaded_symbols(), self._scene.variables())
+        code_id = self._link.code_id
         async with self._link.client() as client:
-            parts = await client.call(ReadFlight(cycle, list(variables.places)))
+            parts = await client.call(ReadFlight(cycle, list(variables.places), code_id))
         values = variables.decode(b"".join(parts))
         if values is not None:
             self._view.update(values)

@@ -40,10 +40,10 @@ class Written:
 async def read(link: RuntimeLink, expressions: Sequence[str], *, cycle: int | None = None) -> list[Value]:
     """The values of one moment, the present or the end of a past cycle; an expression that has none carries
     its error."""
-    symbols = link.loaded_symbols()
+    symbols, code_id = link.loaded_symbols(), link.code_id
     found = resolve_all(symbols, expressions)
     refs = [ref for ref in found if isinstance(ref, VarRef)]
-    data = iter(await _read_refs(link, refs, cycle))
+    data = iter(await _read_refs(link, code_id, refs, cycle))
     result = []
     for expression, ref in zip(expressions, found, strict=True):
         if isinstance(ref, str):
@@ -202,7 +202,7 @@ async def _set(
             errors.append(InvalidField(location=wanted.expression, message=f"{error}."))
     if errors:
         raise _refusal(errors)
-    old = await _read_refs(link, [ref for ref, _ in orders])
+    old = await _read_refs(link, code_id, [ref for ref, _ in orders])
     batch = [(ref.offset, data, ref.bit) for ref, data in orders]
     await begin(
         [
@@ -242,7 +242,9 @@ def _resolve_or_refuse(symbols: SymbolMap, expression: str) -> VarRef:
     return found
 
 
-async def _read_refs(link: RuntimeLink, refs: Iterable[VarRef], cycle: int | None = None) -> list[bytes]:
+async def _read_refs(
+    link: RuntimeLink, code_id: str, refs: Iterable[VarRef], cycle: int | None = None
+) -> list[bytes]:
     places = [(ref.offset, ref.size) for ref in refs]
     total = sum(size for _, size in places)
     if total > MAX_BYTES:
@@ -250,7 +252,9 @@ async def _read_refs(link: RuntimeLink, refs: Iterable[VarRef], cycle: int | Non
     if not places:
         return []
     async with link.client() as client:
-        return await client.call(Read(places) if cycle is None else ReadFlight(cycle, places))
+        return await client.call(
+            Read(places, code_id) if cycle is None else ReadFlight(cycle, places, code_id)
+        )
 
 
 def _value(link: RuntimeLink, symbols: SymbolMap, expression: str, ref: VarRef, data: bytes) -> Value:
