@@ -27,7 +27,7 @@ def test_scara_of_two_joints(transform: Transformations, random: np.random.Gener
     point = (upper @ lower)[:, :2, 3]
     shared: Given = {"dArmLength1": lengths[0], "dArmLength2": lengths[1]}
     shared |= uniform(random, -180.0, 180.0, "dOffsetA", "dOffsetB")
-    pose = {"pi.dX": point[:, 0], "pi.dY": point[:, 1], "bElbowLow": low}
+    pose: Given = {"pi.dX": point[:, 0], "pi.dY": point[:, 1], "bElbowLow": low}
     there = transform("SMC_TRAFO_Scara2", {**pose, **shared}, ["bError", "dA", "dB"])
     assert not np.any(there["bError"])
     alpha, beta = there["dA"] - shared["dOffsetA"], there["dB"] - shared["dOffsetB"]
@@ -62,7 +62,7 @@ def test_scara_of_three_joints(transform: Transformations, random: np.random.Gen
     turns = 360.0 * random.integers(-3, 4, ROWS)
     shared: Given = {f"dArmLength{number}": length for number, length in enumerate(lengths, 1)}
     shared |= uniform(random, -180.0, 180.0, "dOffsetA", "dOffsetB", "dOffsetC")
-    pose = {
+    pose: Given = {
         "pi.dX": point[:, 0],
         "pi.dY": point[:, 1],
         "dDirection": 180.0 - heading + turns,
@@ -128,8 +128,8 @@ def test_palletizer(
 
 def test_a_palletizer_keeps_axis_0_where_its_flange_is_on_it(transform: Transformations) -> None:
     sizes = {"A1": 0.0, "D1": 400.0, "L1": 600.0, "L2": 500.0, "A4": 0.0, "D4": 120.0}
-    config = {f"config.d{name}": value for name, value in sizes.items()} | {"config.adOffset[0]": 3.0}
-    pose = {"pi.dX": np.array([300.0, 0.0]), "pi.dY": np.array([300.0, 0.0]), "pi.dZ": 1000.0}
+    config: Given = {f"config.d{name}": value for name, value in sizes.items()} | {"config.adOffset[0]": 3.0}
+    pose: Given = {"pi.dX": np.array([300.0, 0.0]), "pi.dY": np.array([300.0, 0.0]), "pi.dZ": 1000.0}
     found = transform("SMC_Trafo_4AxisPalletizer", {**pose, **config}, ["bError", "dQ0"])
     assert not np.any(found["bError"])
     assert found["dQ0"] == pytest.approx([48.0, 48.0])

@@ -21,7 +21,7 @@ def test_planar_portals(transform: Transformations, random: np.random.Generator,
         shared |= uniform(random, -720.0, 720.0, "dAlpha") | uniform(random, -50.0, 50.0, "dToolA")
     if name.endswith("Tool2"):
         shared |= uniform(random, -50.0, 50.0, "dToolB")
-    axes = ("A", "B") if name[-2] in "HT" else ("X", "Y")
+    axes: tuple[str, ...] = ("A", "B") if name[-2] in "HT" else ("X", "Y")
     if name == "GantryCutter2":
         pose |= uniform(random, -1.0, 1.0, "v.dX", "v.dY")
         shared |= uniform(random, -360.0, 360.0, "dOffsetR")
