@@ -128,7 +128,8 @@ def test_palletizer(
 
 def test_a_palletizer_keeps_axis_0_where_its_flange_is_on_it(transform: Transformations) -> None:
     sizes = {"A1": 0.0, "D1": 400.0, "L1": 600.0, "L2": 500.0, "A4": 0.0, "D4": 120.0}
-    config: Given = {f"config.d{name}": value for name, value in sizes.items()} | {"config.adOffset[0]": 3.0}
+    config: Given = {f"config.d{name}": value for name, value in sizes.items()}
+    config["config.adOffset[0]"] = 3.0
     pose: Given = {"pi.dX": np.array([300.0, 0.0]), "pi.dY": np.array([300.0, 0.0]), "pi.dZ": 1000.0}
     found = transform("SMC_Trafo_4AxisPalletizer", {**pose, **config}, ["bError", "dQ0"])
     assert not np.any(found["bError"])
