@@ -338,7 +338,7 @@ def variable_program(text: str) -> str:
 
 
 def test_variables_of_all_types() -> None:
-    """Spec VAR-01, VAR-02, CNCR-09, EX-15: read when the line is decoded, whatever they become later."""
+    """Spec VAR-01, VAR-02, CNCR-09, cnc EX-15: read when the line is decoded, whatever they become later."""
     names = [
         "rValue",
         "lrValue",
@@ -382,7 +382,7 @@ def test_writing_variables() -> None:
 
 
 def test_loop_by_a_variable() -> None:
-    """Spec EX-18: K$v$ with v = 0 does not jump."""
+    """Spec cnc EX-18: K$v$ with v = 0 does not jump."""
     text = "N10 G91\nN20 G1 X5 F9\nN30 G37 O$iValue$ D1\nN40 G20 L20 K$iValue$"
     with run(variable_program(text), cycles=0) as program:
         program.set("Main", xRun=True, iValue=-3)

@@ -38,12 +38,12 @@ def check_upper_semicircle(geo: Geo) -> None:
     ],
 )
 def test_arcs_of_all_forms(text: str) -> None:
-    """EX-16 a, c, d, e; the older form of T. Spec GEO-05 to GEO-08."""
+    """cnc EX-16 a, c, d, e; the older form of T. Spec GEO-05 to GEO-08."""
     check_upper_semicircle(path(ARC_START + text)[1])
 
 
 def test_counter_clockwise_arc() -> None:
-    """EX-16 b."""
+    """cnc EX-16 b."""
     geo = path(ARC_START + "N20 G3 X200 Y100 R50")[1]
     assert geo.kind == "CCLW"
     near(geo["dT1"], 180)
@@ -52,7 +52,7 @@ def test_counter_clockwise_arc() -> None:
 
 
 def test_two_turns() -> None:
-    """EX-16 f."""
+    """cnc EX-16 f."""
     geo = path(ARC_START + "N20 G2 I50 J0 T720")[1]
     near(geo.length, 628.318530717959)
     near(geo["dT2"], 720)
@@ -60,14 +60,14 @@ def test_two_turns() -> None:
 
 
 def test_impossible_radius_makes_a_line() -> None:
-    """EX-16 g."""
+    """cnc EX-16 g."""
     geo = path(ARC_START + "N20 G2 X200 Y100 R40")[1]
     assert geo.kind == "LIN"
     assert [*geo.start[:2], *geo.dest[:2]] == [100, 100, 200, 100]
 
 
 def test_full_circle_and_quarter() -> None:
-    """EX-16 h, i."""
+    """cnc EX-16 h, i."""
     full = path(ARC_START + "N20 G2 X100 Y100 I50 J0")[1]
     near(full.length, 314.159265358979)
     quarter = path(ARC_START + "N20 G3 X150 Y150 R50")[1]
@@ -77,20 +77,20 @@ def test_full_circle_and_quarter() -> None:
 
 
 def test_absolute_and_relative() -> None:
-    """EX-17."""
+    """cnc EX-17."""
     assert ends(path("N0 G91\nN10 G1 X10 Y10 F100\nN20 G1 X100")) == [(10, 10), (110, 10)]
     assert ends(path("N0 G90\nN10 G1 X10 Y10 F100\nN20 G1 X100")) == [(10, 10), (100, 10)]
 
 
 def test_loop_with_the_counter() -> None:
-    """EX-18. Spec VAR-04, GEO-19, CNCR-37."""
+    """cnc EX-18. Spec VAR-04, GEO-19, CNCR-37."""
     found = path("N00 G36 D4\nN10 G91\nN20 G1 X5 Y0 F100\nN30 G37 D-1\nN40 G20 L20")
     assert ends(found) == [(5, 0), (10, 0), (15, 0), (20, 0)]
     assert [geo["iSourceLine_No"] for geo in found] == [20, 20, 20, 20]
 
 
 def test_switch_points() -> None:
-    """EX-19: places of the switch points. Spec GEO-16, CNCR-39."""
+    """cnc EX-19: places of the switch points. Spec GEO-16, CNCR-39."""
     geo = path("N0 G1 X20 Y20 F100\nN10 G1 X100 Y40 H-2 O0.25")[1]
     assert (geo["iHelpID[0]"], geo["dHelpPos[0]"], geo["iHelpID[1]"]) == (-2, 0.25, 0)
     geo = path("N0 G1 X20 F9\nN10 G1 X100 H2 L20 H-2 L-10")[1]
@@ -100,7 +100,7 @@ def test_switch_points() -> None:
 
 
 def test_ellipses() -> None:
-    """EX-20. Spec GEO-09, GEO-10."""
+    """cnc EX-20. Spec GEO-09, GEO-10."""
     geo = path("N10 G0 X100 Y100\nN15 G98\nN20 G8 X200 Y100 I150 J100 K45 R0.5 F9")[1]
     assert geo.kind == "ELLCLW"
     near(geo["dP5"], np.sqrt(6250))
@@ -122,7 +122,7 @@ def test_ellipses() -> None:
 
 
 def test_parabola() -> None:
-    """EX-21. Spec GEO-13."""
+    """cnc EX-21. Spec GEO-13."""
     geo = path("N10 G0 X100 Y200\nN20 G98\nN30 G6 X-100 Y200 I0 J0 F100")[1]
     assert geo.kind == "SPLINE"
     for u in np.linspace(0, 1, 11):
@@ -132,7 +132,7 @@ def test_parabola() -> None:
 
 
 def test_spline() -> None:
-    """EX-22. Spec GEO-11, GEO-12."""
+    """cnc EX-22. Spec GEO-11, GEO-12."""
     found = path("N0 G0 X0 Y0 F100\nN10 G5 X20 Y0\nN20 G5 X20 Y20\nN30 G5 X40 Y20\nN40 G5 X40 Y40")
     assert [geo.kind for geo in found] == ["SPLINE"] * 4
     directions = [0, 45, 45, 45, 90]
@@ -145,13 +145,13 @@ def test_spline() -> None:
 
 
 def test_coordinate_shift() -> None:
-    """EX-24. Spec GEO-21."""
+    """cnc EX-24. Spec GEO-21."""
     found = path("G54 X10 Y5\nG1 X10 Y0 F9\nG55 X1\nG1 X10 Y0\nG53\nG1 X10 Y0\nG56 X0 Y0\nG1 X5 Y5")
     assert ends(found) == [(20, 5), (21, 5), (10, 0), (15, 5)]
 
 
 def test_function_of_a_machine() -> None:
-    """EX-28: what is stored. Spec GEO-17, CNCR-38."""
+    """cnc EX-28: what is stored. Spec GEO-17, CNCR-38."""
     first, function, last = path("N0 G1 X50 F100\nN10 M7 K1.5 L2\nN20 G1 X100")
     assert first["dVelEnd"] == 0
     assert function.kind == "MCOMMAND"
@@ -161,7 +161,7 @@ def test_function_of_a_machine() -> None:
 
 
 def test_additional_axis() -> None:
-    """EX-29: what is stored. Spec GEO-03, CNCR-36."""
+    """cnc EX-29: what is stored. Spec GEO-03, CNCR-36."""
     (geo,) = path("N0 G1 X100 P40 F10 E10 E-10 S1")
     assert (geo.dest[6], geo["dVel"], geo["dAccel"], geo["dDecel"]) == (40, 10, 10, 10)
     assert int(geo["piDestPos.wAuxData"]) == 0b1000111
@@ -172,7 +172,7 @@ def test_additional_axis() -> None:
 
 
 def test_step_suppression() -> None:
-    """EX-30. Spec GC-10."""
+    """cnc EX-30. Spec GC-10."""
     text = "N0 G1 X10 F10\n/N10 G1 Y10\nN20 G1 X20"
     assert ends(path(text)) == [(10, 0), (10, 10), (20, 10)]
     assert ends(path(text, xSuppress=True)) == [(10, 0), (20, 0)]
@@ -215,7 +215,7 @@ def test_step_suppression() -> None:
     ],
 )
 def test_errors(text: str, error: int, word: str) -> None:
-    """EX-32 and the rest of cnc 13: number and word of what is refused. Spec GC-06, GC-08, CNCR-41."""
+    """cnc EX-32 and the rest of cnc 13: number and word of what is refused. Spec GC-06, GC-08, CNCR-41."""
     if text == "G1.5 X1":  # The parser leaves the word out: the line has no travel command
         word = ""
     decoded = decode(text)
@@ -224,6 +224,6 @@ def test_errors(text: str, error: int, word: str) -> None:
 
 
 def test_without_a_velocity() -> None:
-    """EX-32: the path is decoded; the interpolator refuses it with 1001."""
+    """cnc EX-32: the path is decoded; the interpolator refuses it with 1001."""
     (geo,) = path("N0 G1 X10")
     assert (geo["dVel"], geo["dAccel"], geo["dDecel"]) == (0, 100, 100)

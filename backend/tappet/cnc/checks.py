@@ -188,7 +188,7 @@ def _words(line: Line, name: str, command: Command, place: Word) -> Iterator[Pro
 
 def _function(line: Line, word: Word) -> Iterator[Problem]:
     if word.variable is None and not 1 <= word.value <= LAST_M:
-        yield _at(line, word, f"An M function has a number from 1 to {LAST_M}")
+        yield _at(line, word, f"The number behind M reaches from 1 to {LAST_M}")
     for other in line.words:
         if other.address != "M" and other.address not in M_WORDS and other.address not in MODAL:
             yield _at(
@@ -200,7 +200,7 @@ def _function(line: Line, word: Word) -> Iterator[Problem]:
             yield _at(
                 line,
                 other,
-                "O of an M function is a variable of type SMC_M_PARAMETERS, such as O$parameters$",
+                "O of an M line is a variable of type SMC_M_PARAMETERS, such as O$m$",
             )
 
 
