@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 from tests.libraries.cnc_chain import TINY, Block, Result, gaps, length_of, through
-from tests.libraries.cnc_paths import CCLW, CLW, LIN, LINPOS, MCOMMAND, SPLINE, Geo, arc, line, position
+from tests.libraries.cnc_paths import CCLW, CLW, LIN, LINPOS, MCOMMAND, SPLINE, Geo, arc, line, path, position
+from tests.libraries.st_program import run
 
 LEFT, RIGHT, CORRECTION_OFF = 2, 4, 1
 SMOOTH, ROUND, CORNERS_OFF = 16, 32, 8
@@ -492,3 +493,106 @@ def test_inputs_that_are_none_are_refused(name: str, inputs: str) -> None:
     result = through(polyline((0, 0), (10, 0), (10, 10)), Block(name, inputs), vec=(math.nan, 0, 0))
     assert result.error == 10021
     assert result.objects == []
+
+
+@pytest.mark.parametrize("piece", [(30.0, 20.0), (30.0, 20.0, 130.0), (0.0, 40.0, 15.0, -140.0)])
+def test_dynamics_of_the_axes_of_the_path(piece: tuple[float, ...]) -> None:
+    """SMC_LimitDynamics: X and Y keep their limits at every place, with the path accelerating or braking at its limit."""
+    geo = path([piece], dVel=1000.0, dVelEnd=1000.0, dAccel=10000.0, dDecel=10000.0)[0]
+    block = Block("SMC_LimitDynamics", "wAxis := 3, dMaxVel := 12, dMaxAcc := 50, dMaxDec := 40")
+    found = through([geo], block).objects[0]
+    velocity, speed_up, brake = (found.member(name) for name in ("dVel", "dAccel", "dDecel"))
+    largest = {"v": 0.0, "a": 0.0, "d": 0.0}
+    h = 1e-4
+    for u in np.linspace(0, 1, 721):
+        slope = geo.slope(u)
+        speed = np.linalg.norm(slope)
+        tangent = slope[:2] / speed
+        after, before = geo.slope(u + h), geo.slope(u - h)
+        bend = (after / np.linalg.norm(after) - before / np.linalg.norm(before))[:2] / (2 * h * speed)
+        largest["v"] = max(largest["v"], float(np.abs(velocity * tangent).max()))
+        for name, value in (("a", speed_up), ("d", brake)):
+            for sign in (1, -1):
+                total = np.abs(sign * value * tangent + velocity**2 * bend).max()
+                largest[name] = max(largest[name], float(total))
+    assert largest["v"] <= 12 * (1 + 1e-9)
+    assert largest["a"] <= 50 * (1 + 1e-5)
+    assert largest["d"] <= 40 * (1 + 1e-5)
+    assert largest["d"] > 20, "no more than what the limits ask for"
+
+
+@pytest.mark.parametrize(
+    ("degrees", "expected"), [(90, 10 / math.sqrt(2)), (60, 10.0), (180, 5.0), (4, 100.0)]
+)
+def test_the_velocity_at_a_corner(degrees: float, expected: float) -> None:
+    """SMC_ReduceVelEndAtCorner: the vector of the velocity jumps by 10 at most; up to 5 degrees nothing is done."""
+    end = (10 + 10 * math.cos(math.radians(degrees)), 10 * math.sin(math.radians(degrees)))
+    objects = polyline((0, 0), (10, 0), end)
+    found = through(objects, Block("SMC_ReduceVelEndAtCorner", "dAngle := 5, dMaxVelJump := 10")).objects
+    assert found[0].member("dVelEnd") == pytest.approx(expected)
+
+
+def test_long_objects_are_split() -> None:
+    """SMC_ObjectSplitter: 20 in parts of 7 at most are three; a switch point lies on one part, marks on one end each."""
+    objects = polyline((0, 0), (20, 0), marks={0: SMOOTH | CORNERS_OFF})
+    objects[0].members |= {"dHelpPos[0]": 0.5, "iHelpID[0]": 3}
+    found = through(objects, Block("SMC_ObjectSplitter", "dMaxLength := 7")).objects
+    assert [length_of(geo) for geo in found] == pytest.approx([20 / 3] * 3)
+    assert [switches(geo) for geo in found] == [{}, {3: pytest.approx(0.5)}, {}]
+    assert [geo.member("byInternMark") for geo in found] == [SMOOTH, 0, CORNERS_OFF]
+
+
+LIMITS = """
+PROGRAM Main
+VAR
+    a : ARRAY[0..2] OF SM3_CNC.SMC_GEOINFO;
+    queue : SM3_CNC.SMC_OUTQUEUE;
+    aBuffer : ARRAY[1..10] OF SM3_CNC.SMC_GEOINFO;
+    check : SM3_CNC.SMC_CheckForLimits := (wAddAxis := 3);
+    n : DINT;
+    xBegun, xSame : BOOL;
+END_VAR
+IF NOT xBegun THEN
+    queue.pbyBuffer := ADR(aBuffer);
+    SM3_CNC.SMC_SetQueueCapacity(ADR(queue), SIZEOF(aBuffer));
+    check.piMax.dX := 100;
+    check.piMax.dY := 50;
+    xBegun := TRUE;
+END_IF
+IF n <= 2 THEN
+    SM3_CNC.SMC_CalcLengthGeo(ADR(a[n]));
+    SM3_CNC.SMC_AppendObj(ADR(queue), ADR(a[n]));
+    n := n + 1;
+END_IF
+check(bExecute := TRUE, poqDataIn := ADR(queue));
+xSame := check.poqDataOut = ADR(queue) AND SM3_CNC.SMC_GetCount(ADR(queue)) = n;
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize(
+    ("second", "positive", "negative"),
+    [
+        (arc((50, 50), 10, 180, 180), 2, 0),
+        (arc((50, 50), 10, 180, -180), 0, 0),
+        (arc((10, 40), 20, 90, -180), 2, 1),
+        (line(position(40, 50), position(60, 50)), 0, 0),
+        (line(position(40, 50), position(-1, 51)), 2, 1),
+    ],
+)
+def test_the_box_of_a_path(second: Geo, positive: int, negative: int) -> None:
+    """EX-16. Spec CNCR-103, CNCR-26: the apex of an arc counts, what touches a limit is inside, the path is not changed."""
+    second.members["iSourceLine_No"] = 20.0
+    objects = [line(position(0, 0), position(40, 50)), second, line(position(), position())]
+    with run(LIMITS, cycles=0) as program:
+        for n, geo in enumerate(objects):
+            program.set("Main", **{f"a[{n}].{name}": value for name, value in geo.values().items()})
+        for _ in range(4):
+            program.cycle()
+        found = [int(program.literal(f"Main.check.{pin}")) for pin in PINS]
+        assert program.literal("Main.xSame") == "TRUE"
+    out = positive | negative
+    assert found == [out, 20 if out else 0, positive, negative]
+
+
+PINS = ("wAxisOutOfLimits", "iSourceLine_No", "wLimitSwPositive", "wLimitSwNegative")
