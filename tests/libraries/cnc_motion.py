@@ -32,7 +32,11 @@ _RECORDED = {
 }
 _ARRAYS = ", ".join([*_RECORDED, "aDone"])
 _STORES = "\n    ".join(f"{name}[n] := {expression};" for name, expression in _RECORDED.items())
-def program_text(block: str = "SMC_Interpolator", declarations: str = "", calls: str = "", producer: str = "") -> str:
+
+
+def program_text(
+    block: str = "SMC_Interpolator", declarations: str = "", calls: str = "", producer: str = ""
+) -> str:
     """The program with another interpolator, other calls in front of it, or more before the check."""
     done = "bEndOfPath" if block == "SMC_Interpolator2Dir" else "bDone"
     return f"""
@@ -147,7 +151,9 @@ class Motion:
         assert count <= CALLS
         self.program.set("Main", nCalls=count)
         self.program.cycle()
-        return {name: np.array(self.program.numbers(f"Main.{name}")[:count]) for name in [*_RECORDED, "aDone"]}
+        return {
+            name: np.array(self.program.numbers(f"Main.{name}")[:count]) for name in [*_RECORDED, "aDone"]
+        }
 
     def end_velocities(self, count: int) -> list[float]:
         return [float(self.program.literal(f"Main.aBuffer[{n + 1}].dVelEnd")) for n in range(count)]

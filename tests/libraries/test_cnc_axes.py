@@ -60,7 +60,10 @@ class Axis:
     def calls(self, count: int) -> dict[str, np.ndarray]:
         self.program.set("Main", nCalls=count)
         self.program.cycle()
-        return {n: np.array(self.program.numbers(f"Main.{n}")[:count]) for n in ("aPosition", "aVelocity", "aStop")}
+        return {
+            n: np.array(self.program.numbers(f"Main.{n}")[:count])
+            for n in ("aPosition", "aVelocity", "aStop")
+        }
 
     def says(self, path: str) -> str:
         return self.program.literal(f"Main.{path}")
@@ -77,7 +80,7 @@ def axis() -> Iterator[Axis]:
 
 @pytest.mark.parametrize("block", ["ByPos", "ByPosVel"])
 def test_a_jump_is_bridged(block: str) -> None:
-    """Spec EX-40, CNCR-171: 100 u with 50 u/s, 100 u/s2 take 2.5 s."""
+    """Spec cnc_runtime EX-40, CNCR-171: 100 u with 50 u/s, 100 u/s2 take 2.5 s."""
     with axis() as one:
         one.set(block, bEnable=True, fSetPosition=100.0)
         found = one.calls(640)
@@ -94,7 +97,7 @@ def test_a_jump_is_bridged(block: str) -> None:
 
 @pytest.mark.parametrize(("gaps", "place"), [(True, 0.5), (False, 100.0)])
 def test_the_set_position_is_followed(gaps: bool, place: float) -> None:
-    """Spec EX-40: 125 u/s are below fSWMaxVelocity; without bAvoidGaps nothing is checked."""
+    """Spec cnc_runtime EX-40: 125 u/s are below fSWMaxVelocity; without bAvoidGaps nothing is checked."""
     with axis() as one:
         one.set("ByPos", bEnable=True, fSetPosition=place, bAvoidGaps=gaps)
         found = one.calls(2)
@@ -160,7 +163,9 @@ def test_an_interpolator_that_has_not_begun(block: str, status: str) -> None:
 def test_the_axis_stands_behind_the_path(block: str) -> None:
     """Catalog: bEnable FALSE stops the axis."""
     with axis() as one:
-        one.set(block, bEnable=True, **({"fSetVelocity": 1.0} if block == "ByVel" else {"fSetPosition": 0.01}))
+        one.set(
+            block, bEnable=True, **({"fSetVelocity": 1.0} if block == "ByVel" else {"fSetPosition": 0.01})
+        )
         one.calls(3)
         assert one.says("Axis.nAxisState") == "synchronized_motion"
         one.set(block, bEnable=False)
@@ -192,7 +197,10 @@ def test_an_axis_without_power(block: str) -> None:
         one.calls(5)
         one.set(block, bEnable=True)
         one.calls(2)
-        assert (one.says(f"{block}.bError"), one.says(f"{block}.iErrorID")) == ("TRUE", "SMC_REGULATOR_OR_START_NOT_SET")
+        assert (one.says(f"{block}.bError"), one.says(f"{block}.iErrorID")) == (
+            "TRUE",
+            "SMC_REGULATOR_OR_START_NOT_SET",
+        )
         one.set(block, bEnable=False)
         one.calls(1)
         assert (one.says(f"{block}.bError"), one.says(f"{block}.iErrorID")) == ("FALSE", "SMC_NO_ERROR")

@@ -21,7 +21,9 @@ def planned(*path: Object) -> list[Object]:
     return [*path[:-1], Object(**{**path[-1].__dict__, "end": 0.0})]
 
 
-def errors(path: list[Object], calls: int = 300, text: str = EDITOR, checks: bool = False, **inputs: Any) -> list[int]:
+def errors(
+    path: list[Object], calls: int = 300, text: str = EDITOR, checks: bool = False, **inputs: Any
+) -> list[int]:
     """What stood in wErrorID, in order."""
     with motion(path, text, **inputs) as running:
         running.program.set("Main", xChecks=checks)
@@ -70,7 +72,12 @@ def test_the_queue_runs_dry_and_goes_on() -> None:
 
 def test_velocity_at_a_stop() -> None:
     """Spec 1004: a queue that was planned wrongly."""
-    path = planned(Object(50.0, end=40.0), Object(0.5, 40.0, end=20.0), Object(kind=MCOMMAND, members={"iHelpID[0]": 7}), Object(50.0))
+    path = planned(
+        Object(50.0, end=40.0),
+        Object(0.5, 40.0, end=20.0),
+        Object(kind=MCOMMAND, members={"iHelpID[0]": 7}),
+        Object(50.0),
+    )
     assert errors(path)[-1] == 1004
 
 
@@ -148,7 +155,10 @@ def test_no_queue_yet() -> None:
     with motion(LINE, text) as path:
         found = path.calls(50)
         assert (found["aError"].max(), found["aWorking"].max()) == (0, 0)
-        assert (path.program.literal("Main.check.bBusy"), path.program.literal("Main.ipo.bBusy")) == ("TRUE", "TRUE")
+        assert (path.program.literal("Main.check.bBusy"), path.program.literal("Main.ipo.bBusy")) == (
+            "TRUE",
+            "TRUE",
+        )
 
 
 def test_an_error_stays_until_the_next_start() -> None:
@@ -170,7 +180,12 @@ def test_abort() -> None:
         path.set(bAbort=True)
         found = path.calls(5)
         assert found["aS"].tolist() == pytest.approx([37.5] * 5)
-        assert (set(found["aV"]), set(found["aLeft"]), set(found["aWorking"]), set(found["aStatus"])) == ({0}, {0}, {0}, {1})
+        assert (set(found["aV"]), set(found["aLeft"]), set(found["aWorking"]), set(found["aStatus"])) == (
+            {0},
+            {0},
+            {0},
+            {1},
+        )
         path.set(bAbort=False)
         assert path.calls(20)["aWorking"].max() == 0
         path.program.set("Main", xExecutes=False)
@@ -194,8 +209,10 @@ def test_execute_false() -> None:
 
 def test_the_restored_path_runs_again() -> None:
     """Spec CNCR-07."""
-    text = program_text(producer="IF xAgain THEN xAgain := NOT SM3_CNC.SMC_RestoreQueue(TRUE, ADR(queue)); END_IF",
-                        declarations="xAgain : BOOL;")
+    text = program_text(
+        producer="IF xAgain THEN xAgain := NOT SM3_CNC.SMC_RestoreQueue(TRUE, ADR(queue)); END_IF",
+        declarations="xAgain : BOOL;",
+    )
     with motion([Object(50.0), Object(50.0)], text) as path:
         assert path.calls(260)["aDone"][-1] == 1
         path.program.set("Main", xExecutes=False)
@@ -212,7 +229,19 @@ INPUTS = {
     "dwIpoTime": st.sampled_from([0, 1, 2**32 - 1]),
     "iVelMode": st.sampled_from([-1, 5, 32767]),
 }
-MEMBERS = ("dVel", "dVelEnd", "dAccel", "dDecel", "dLength", "dP1", "dT1", "dT2", "piDestPos.dX", "piStartPos.dY", "dHelpPos[0]")
+MEMBERS = (
+    "dVel",
+    "dVelEnd",
+    "dAccel",
+    "dDecel",
+    "dLength",
+    "dP1",
+    "dT1",
+    "dT2",
+    "piDestPos.dX",
+    "piStartPos.dY",
+    "dHelpPos[0]",
+)
 
 
 @settings(max_examples=80, deadline=None)
@@ -241,7 +270,9 @@ def test_absurd_objects(members: dict[str, float], kind: int, checks: bool, mode
     """An object of absurd numbers between two others: an error that is documented, or the path goes on."""
     text = program_text() if checks else EDITOR
     middle = Object(20.0, kind=kind, members={"iHelpID[0]": 3, "dP3": 10.0, **members})
-    with motion(planned(Object(20.0, end=10.0), middle, Object(20.0)), text, iVelMode=mode, dJerkMax=1e3, bAcknM=True) as path:
+    with motion(
+        planned(Object(20.0, end=10.0), middle, Object(20.0)), text, iVelMode=mode, dJerkMax=1e3, bAcknM=True
+    ) as path:
         path.program.set("Main", xChecks=checks)
         found = path.calls(1000)
     assert set(found["aError"]) <= {0, 1001, 1002, 1003, 1004, 1007, 1008, 1081}

@@ -21,7 +21,14 @@ from tests.libraries.cnc_motion import (
 
 CYCLE = 0.01
 LINE = [Object(100.0)]
-TRAPEZOID = {0.1: (0.5, 10), 0.25: (3.125, 25), 0.4: (8, 40), 0.5: (12.5, 50), 1.0: (37.5, 50), 2.0: (87.5, 50)} | {
+TRAPEZOID = {
+    0.1: (0.5, 10),
+    0.25: (3.125, 25),
+    0.4: (8, 40),
+    0.5: (12.5, 50),
+    1.0: (37.5, 50),
+    2.0: (87.5, 50),
+} | {
     2.1: (92, 40),
     2.25: (96.875, 25),
     2.5: (100, 0),
@@ -51,7 +58,7 @@ def seconds(path: Motion, count: float) -> dict[str, np.ndarray]:
 
 @pytest.mark.parametrize(("mode", "table"), [("TRAPEZOID", TRAPEZOID), ("SIGMOID", SIGMOID)])
 def test_a_line(mode: str, table: dict[float, tuple[float, float]]) -> None:
-    """Spec EX-30, CNCR-120 to CNCR-123, CNCR-127, CNCR-128."""
+    """Spec cnc_runtime EX-30, CNCR-120 to CNCR-123, CNCR-127, CNCR-128."""
     with motion(LINE, iVelMode=mode) as path:
         found = seconds(path, 2.6)
     for t, (s, v) in table.items():
@@ -71,14 +78,14 @@ def test_a_line(mode: str, table: dict[float, tuple[float, float]]) -> None:
 
 
 def test_way_of_a_cycle() -> None:
-    """Spec EX-33: the way of each cycle, fed back."""
+    """Spec cnc_runtime EX-33: the way of each cycle, fed back."""
     with motion(LINE) as path:
         found = seconds(path, 2.6)
     assert np.diff(found["aWay"])[at(1.0)] == pytest.approx(0.5, abs=1e-9)
 
 
 def test_other_deceleration() -> None:
-    """Spec EX-30: E100 E-50."""
+    """Spec cnc_runtime EX-30: E100 E-50."""
     with motion([Object(100.0, deceleration=50.0)]) as path:
         found = seconds(path, 2.8)
     assert done_at(found) == pytest.approx(2.75)
@@ -86,7 +93,7 @@ def test_other_deceleration() -> None:
 
 
 def test_a_peak() -> None:
-    """Spec EX-30: F50 on 9 u with E100 E-50; a cycle so short that it shows the peak."""
+    """Spec cnc_runtime EX-30: F50 on 9 u with E100 E-50; a cycle so short that it shows the peak."""
     with motion([Object(9.0, deceleration=50.0)], dwIpoTime=1000) as path:
         found = path.calls(800)
     assert found["aV"].max() == pytest.approx(24.494897, abs=0.1)
@@ -95,20 +102,20 @@ def test_a_peak() -> None:
 
 @pytest.mark.parametrize(("override", "duration"), [(0.5, 4.25), (2.0, 2.0)])
 def test_override_from_the_start(override: float, duration: float) -> None:
-    """Spec EX-30; with 2 the velocity only comes up to 100 where the ramps leave it: 100 u are two ramps of 50 u."""
+    """Spec cnc_runtime EX-30; with 2 the velocity only comes up to 100 where the ramps leave it: 100 u are two ramps of 50 u."""
     with motion(LINE, dOverride=override) as path:
         assert done_at(seconds(path, 5)) == pytest.approx(duration)
 
 
 @pytest.mark.parametrize("override", ["0.001", "0.0", "-1.0"])
 def test_lowest_override(override: str) -> None:
-    """Spec EX-30, CNCR-124: below 0.01 counts as 0.01."""
+    """Spec cnc_runtime EX-30, CNCR-124: below 0.01 counts as 0.01."""
     with motion(LINE, dOverride=float(override)) as path:
         assert seconds(path, 1)["aV"][-1] == pytest.approx(0.5)
 
 
 def test_slow_stop() -> None:
-    """Spec EX-31, CNCR-141."""
+    """Spec cnc_runtime EX-31, CNCR-141."""
     with motion(LINE) as path:
         assert seconds(path, 1.0)["aS"][-1] == pytest.approx(37.5)
         path.set(bSlow_Stop=True)
@@ -135,7 +142,7 @@ def test_slow_stop_that_is_taken_back() -> None:
 
 @pytest.mark.parametrize(("deceleration", "place", "duration"), [(500.0, 40.0, 0.1), (20.0, 50.0, 0.5)])
 def test_quick_stop(deceleration: float, place: float, duration: float) -> None:
-    """Spec EX-31, CNCR-142."""
+    """Spec cnc_runtime EX-31, CNCR-142."""
     with motion(LINE, dQuickDeceleration=deceleration) as path:
         seconds(path, 1.0)
         path.set(bQuick_Stop=True)
@@ -157,7 +164,7 @@ def test_quick_stop_takes_over_from_a_slow_one() -> None:
 
 
 def test_emergency_stop() -> None:
-    """Spec EX-31, CNCR-140."""
+    """Spec cnc_runtime EX-31, CNCR-140."""
     with motion(LINE) as path:
         seconds(path, 1.0)
         path.set(bEmergency_Stop=True)
@@ -170,7 +177,7 @@ def test_emergency_stop() -> None:
 
 
 def test_override_up_in_motion() -> None:
-    """Spec EX-31: done at t = 2.232051."""
+    """Spec cnc_runtime EX-31: done at t = 2.232051."""
     with motion(LINE) as path:
         seconds(path, 1.0)
         path.set(dOverride=2.0)
@@ -180,7 +187,7 @@ def test_override_up_in_motion() -> None:
 
 
 def test_override_down_in_a_ramp() -> None:
-    """Spec EX-31, CNCR-124: taken over at the end of the ramp."""
+    """Spec cnc_runtime EX-31, CNCR-124: taken over at the end of the ramp."""
     with motion(LINE) as path:
         seconds(path, 0.2)
         path.set(dOverride=0.5)
@@ -196,7 +203,7 @@ TWO = [Object(50.0), Object(50.0)]
 
 @pytest.mark.parametrize("mode", ["TRAPEZOID", "SIGMOID"])
 def test_a_corner(mode: str) -> None:
-    """Spec EX-32."""
+    """Spec cnc_runtime EX-32."""
     with motion(CORNER, iVelMode=mode) as path:
         found = seconds(path, 3.1)
         assert done_at(found) == pytest.approx(3.0)
@@ -204,7 +211,7 @@ def test_a_corner(mode: str) -> None:
 
 
 def test_wait_at_the_corner() -> None:
-    """Spec EX-32, CNCR-143."""
+    """Spec cnc_runtime EX-32, CNCR-143."""
     with motion(CORNER, bWaitAtNextStop=True) as path:
         found = seconds(path, 3.0)
         assert (found["aS"][-1], found["aY"][-1], found["aStatus"][-1]) == (pytest.approx(50), 0, WAIT)
@@ -224,7 +231,7 @@ def test_wait_at_the_end() -> None:
 
 @pytest.mark.parametrize(("single", "duration"), [(True, 3.01), (False, 2.5)])
 def test_single_step(single: bool, duration: float) -> None:
-    """Spec EX-32, CNCR-144."""
+    """Spec cnc_runtime EX-32, CNCR-144."""
     with motion(TWO, bSingleStep=single) as path:
         found = seconds(path, 3.1)
     assert done_at(found) == pytest.approx(duration)
@@ -251,7 +258,7 @@ SWITCHES = {
 
 
 def test_switch_points() -> None:
-    """Spec EX-35, CNCR-153: H3 at 80, H5 at 100, H-3 at 130."""
+    """Spec cnc_runtime EX-35, CNCR-153: H3 at 80, H5 at 100, H-3 at 130."""
     with motion([Object(50.0), Object(100.0, members=SWITCHES)]) as path:
         found = seconds(path, 3.6)
     place, bits = found["aS"], found["aSwitches"]
@@ -265,7 +272,7 @@ M7 = Object(kind=MCOMMAND, members={"iHelpID[0]": 7, "dT1": 1.5, "dT2": 2.0, "dP
 
 
 def test_an_m_function() -> None:
-    """Spec EX-35, CNCR-150."""
+    """Spec cnc_runtime EX-35, CNCR-150."""
     with motion([Object(50.0), M7, Object(50.0)]) as path:
         found = seconds(path, 2.0)
         assert found["aM"].tolist() == [0] * 149 + [7] * 51
@@ -295,7 +302,7 @@ def test_a_dwell(dwell: float) -> None:
 
 
 def test_s_profile() -> None:
-    """Spec EX-34, CNCR-126: P with bit 6 of wSProfile."""
+    """Spec cnc_runtime EX-34, CNCR-126: P with bit 6 of wSProfile."""
     expected = {10: 0.3424, 25: 4.140625, 50: 20, 75: 35.859375}
     for profile in (0, 64):
         members = {"piStartPos.wAuxData": 71, "piDestPos.wAuxData": 71, "piStartPos.wSProfile": profile}
@@ -314,7 +321,7 @@ def path_place(path: Motion) -> float:
 
 
 def test_look_ahead() -> None:
-    """Spec EX-20, CNCR-113."""
+    """Spec cnc_runtime EX-20, CNCR-113."""
     with motion([Object(100.0), Object(1.0)]) as path:
         path.calls(1)
         assert path.end_velocities(2) == pytest.approx([14.142136, 0])
@@ -325,8 +332,16 @@ def test_look_ahead() -> None:
     ("path", "tolerance", "end"),
     [
         (CORNER, 1.0, 0.0),
-        ([Object(50.0), Object(50.0, 30.0, members={"piDestPos.dY": 50 * math.tan(math.radians(0.5))})], 1.0, 30.0),
-        ([Object(50.0), Object(50.0, 30.0, members={"piDestPos.dY": 50 * math.tan(math.radians(0.5))})], 0.4, 0.0),
+        (
+            [Object(50.0), Object(50.0, 30.0, members={"piDestPos.dY": 50 * math.tan(math.radians(0.5))})],
+            1.0,
+            30.0,
+        ),
+        (
+            [Object(50.0), Object(50.0, 30.0, members={"piDestPos.dY": 50 * math.tan(math.radians(0.5))})],
+            0.4,
+            0.0,
+        ),
         ([Object(50.0), Object(50.0, kind=LINPOS)], 1.0, 0.0),
         ([Object(50.0, end=20.0), Object(50.0)], 1.0, 20.0),
         ([Object(50.0), M7, Object(50.0)], 1.0, 0.0),
@@ -334,7 +349,7 @@ def test_look_ahead() -> None:
     ids=["corner", "bend", "bend beyond the tolerance", "G0", "prescribed", "M function"],
 )
 def test_transitions(path: list[Object], tolerance: float, end: float) -> None:
-    """Spec EX-20, CNCR-111, CNCR-112."""
+    """Spec cnc_runtime EX-20, CNCR-111, CNCR-112."""
     with motion(path) as running:
         running.program.set("Main.check", dAngleTol=tolerance)
         running.calls(1)

@@ -25,7 +25,7 @@ def done_at(found: dict[str, np.ndarray]) -> int:
 
 
 def test_parameters() -> None:
-    """Spec EX-35, CNCR-151: K, L and the parameters, as long as the interpolator waits."""
+    """Spec cnc_runtime EX-35, CNCR-151: K, L and the parameters, as long as the interpolator waits."""
     words = {f"dP{n}": 10.0 + n for n in range(1, 9)}
     with motion([Object(50.0), m(7, dT1=1.5, dT2=2.0, **words), Object(50.0)], PARAMETERS) as path:
         found = path.calls(160)
@@ -45,7 +45,7 @@ def test_parameters() -> None:
 
 @pytest.mark.parametrize(("number", "calls"), [(7, 250), (8, 300)])
 def test_in_advance(number: int, calls: int) -> None:
-    """Spec EX-35, CNCR-152: no stop, wM stays 0; another number does not count."""
+    """Spec cnc_runtime EX-35, CNCR-152: no stop, wM stays 0; another number does not count."""
     with motion([Object(50.0), m(7), Object(50.0)], ADVANCE, bAcknM=number != 7) as path:
         path.program.set("Main.ahead", iM=number)
         found = path.calls(320)

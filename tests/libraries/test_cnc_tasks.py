@@ -84,30 +84,42 @@ OBJECTS = st.lists(
     max_size=60,
 )
 ORDERS = st.lists(
-    st.lists(st.sampled_from([APPEND, APPEND, CHECK, INTERPOLATE]), min_size=1, max_size=30), min_size=1, max_size=20
+    st.lists(st.sampled_from([APPEND, APPEND, CHECK, INTERPOLATE]), min_size=1, max_size=30),
+    min_size=1,
+    max_size=20,
 )
 
 
 @settings(max_examples=80, deadline=None)
 @given(OBJECTS, ORDERS, st.sampled_from(["TRAPEZOID", "SIGMOID", "QUADRATIC"]))
-def test_nothing_is_lost_or_doubled(objects: list[tuple[float, float]], orders: list[list[int]], mode: str) -> None:
+def test_nothing_is_lost_or_doubled(
+    objects: list[tuple[float, float]], orders: list[list[int]], mode: str
+) -> None:
     """Spec CNCR-03, CNCR-05, CNCR-116: any order of calls; the velocity keeps the deceleration whatever is known when."""
     with run(PROGRAM, cycles=0) as program:
         program.set("Main", nObjects=len(objects))
         program.set("Main.ipo", iVelMode=mode, dJerkMax=3000.0)
         for n, (length, velocity) in enumerate(objects):
-            program.set("Main", **{f"aLength[{n}]": length, f"aVelocity[{n}]": velocity, f"aNumber[{n}]": n + 1})
+            program.set(
+                "Main", **{f"aLength[{n}]": length, f"aVelocity[{n}]": velocity, f"aNumber[{n}]": n + 1}
+            )
         velocity_before = place_before = 0.0
         numbers: list[int] = []
         steady = [APPEND] * 4 + [CHECK] + [INTERPOLATE] * 5
         for order, times in [*((order, 1) for order in orders), *((steady, 300) for _ in range(10))]:
-            program.set("Main", nPattern=len(order), nSteps=len(order) * times, **{f"aStep[{n}]": step for n, step in enumerate(order)})
+            program.set(
+                "Main",
+                nPattern=len(order),
+                nSteps=len(order) * times,
+                **{f"aStep[{n}]": step for n, step in enumerate(order)},
+            )
             program.cycle()
             calls = order.count(INTERPOLATE) * times
             if calls == 0:
                 continue
             v, s, error, switch = (
-                np.array(program.numbers(f"Main.{name}")[:calls]) for name in ("aV", "aS", "aError", "aSwitch")
+                np.array(program.numbers(f"Main.{name}")[:calls])
+                for name in ("aV", "aS", "aError", "aSwitch")
             )
             assert set(error) <= {0, 1003, 1080}
             change = np.diff(np.concatenate([[velocity_before], v]))

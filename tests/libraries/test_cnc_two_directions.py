@@ -37,7 +37,7 @@ def begin(path: Motion) -> None:
 
 
 def test_back_and_forth() -> None:
-    """Spec EX-36, CNCR-160, CNCR-161."""
+    """Spec cnc_runtime EX-36, CNCR-160, CNCR-161."""
     with motion(LINE, TEXT) as path:
         begin(path)
         found = seconds(path, 1.0)
@@ -123,7 +123,9 @@ def test_the_whole_way_back_is_the_shortest(path: list[Object], override: float,
     """Duration of the way back against a time-optimal plan in numpy of the mirrored path."""
     expected = duration(mirrored(path), override)
     cycle = max(CYCLE, math.ceil(expected / 1900 * 1e6) * 1e-6)
-    with motion(path, TEXT, bStartAtEnd=True, dOverride=-override, iVelMode=mode, dwIpoTime=round(cycle * 1e6)) as running:
+    with motion(
+        path, TEXT, bStartAtEnd=True, dOverride=-override, iVelMode=mode, dwIpoTime=round(cycle * 1e6)
+    ) as running:
         begin(running)
         found = running.calls(min(2000, math.ceil(expected / cycle) + 20))
     calls = int(np.argmax(found["aDone"])) + 1
@@ -135,14 +137,20 @@ def test_the_whole_way_back_is_the_shortest(path: list[Object], override: float,
 @settings(max_examples=30, deadline=None)
 @given(
     PATHS,
-    st.lists(st.tuples(st.integers(1, 60), st.sampled_from([1.0, -1.0, 0.5, -0.5, 0.0, 2.0])), min_size=1, max_size=12),
+    st.lists(
+        st.tuples(st.integers(1, 60), st.sampled_from([1.0, -1.0, 0.5, -0.5, 0.0, 2.0])),
+        min_size=1,
+        max_size=12,
+    ),
     st.sampled_from(["TRAPEZOID", "SIGMOID", "QUADRATIC"]),
 )
 def test_a_hand_wheel(path: list[Object], turns: list[tuple[int, float]], mode: str) -> None:
     """Spec CNCR-162: any override at any time; never off the path, never faster, never steeper than the accelerations."""
     total = sum(item.length for item in path)
     fastest = max(item.velocity for item in path) * 2
-    steepest = max(max(item.acceleration, item.deceleration) for item in path) * (math.pi / 2 if mode == "SIGMOID" else 1)
+    steepest = max(max(item.acceleration, item.deceleration) for item in path) * (
+        math.pi / 2 if mode == "SIGMOID" else 1
+    )
     with motion(path, TEXT, iVelMode=mode, dJerkMax=5000.0) as running:
         begin(running)
         for calls, override in turns:

@@ -57,7 +57,12 @@ def run_to_end(path: Motion, expected: float, cycle: float) -> dict[str, np.ndar
 
 
 def check_limits(
-    path: list[Object], found: dict[str, np.ndarray], override: float, cycle: float, peak: float, slack: float = 1e-6
+    path: list[Object],
+    found: dict[str, np.ndarray],
+    override: float,
+    cycle: float,
+    peak: float,
+    slack: float = 1e-6,
 ) -> None:
     """Velocity within the objects, at their ends, and changes of it; positions go forward to the end."""
     ends = np.cumsum([item.length for item in path])
@@ -84,7 +89,9 @@ def check_limits(
 
 
 @settings(max_examples=60, deadline=None)
-@given(PATHS, st.sampled_from([1.0, 1.0, 0.3, 2.0]), st.sampled_from(["TRAPEZOID", "SIGMOID", "SIGMOID_LIMIT"]))
+@given(
+    PATHS, st.sampled_from([1.0, 1.0, 0.3, 2.0]), st.sampled_from(["TRAPEZOID", "SIGMOID", "SIGMOID_LIMIT"])
+)
 @example([Object(100.0), Object(1.0)], 0.5, "TRAPEZOID")
 @example([Object(30.0, 50.0), Object(0.01, 20.0), Object(3.0, 5.0)], 0.3, "SIGMOID_LIMIT")
 def test_random_paths_are_the_shortest(path: list[Object], override: float, mode: str) -> None:
@@ -136,11 +143,17 @@ CHANGES = st.lists(
     min_size=1,
     max_size=12,
 )
-QUIET = {"bSlow_Stop": False, "bQuick_Stop": False, "bEmergency_Stop": False, "bSingleStep": False, "bWaitAtNextStop": False}
+QUIET = {
+    "bSlow_Stop": False,
+    "bQuick_Stop": False,
+    "bEmergency_Stop": False,
+    "bSingleStep": False,
+    "bWaitAtNextStop": False,
+}
 QUICK = 700.0
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(PATHS, CHANGES, st.sampled_from(MODES))
 def test_any_stops_and_overrides(
     path: list[Object], changes: list[tuple[int, dict[str, float]]], mode: str
@@ -152,7 +165,13 @@ def test_any_stops_and_overrides(
     total = sum(item.length for item in path)
     with motion(path, iVelMode=mode, dJerkMax=JERK, dQuickDeceleration=QUICK) as running:
         velocity = place = way = 0.0
-        for calls, inputs in [*changes, (2000, QUIET), (2000, QUIET), (2000, QUIET), (2000, QUIET | {"dOverride": 1.0})]:
+        for calls, inputs in [
+            *changes,
+            (2000, QUIET),
+            (2000, QUIET),
+            (2000, QUIET),
+            (2000, QUIET | {"dOverride": 1.0}),
+        ]:
             running.set(**inputs)
             found = running.calls(calls)
             assert found["aError"].max() == 0
@@ -169,8 +188,13 @@ def test_any_stops_and_overrides(
         assert place == pytest.approx(total, abs=1e-9)
 
 
-@settings(max_examples=40, deadline=None)
-@given(st.floats(1.0, 40.0), st.integers(1, 120), st.sampled_from(["QUADRATIC", "QUADRATIC_SMOOTH"]), st.booleans())
+@settings(max_examples=20, deadline=None)
+@given(
+    st.floats(1.0, 40.0),
+    st.integers(1, 120),
+    st.sampled_from(["QUADRATIC", "QUADRATIC_SMOOTH"]),
+    st.booleans(),
+)
 def test_a_stop_with_limited_jerk(length: float, calls: int, mode: str, quick: bool) -> None:
     """A stop at any time of the motion, and the way on: the acceleration has no jumps."""
     stop = "bQuick_Stop" if quick else "bSlow_Stop"
@@ -186,7 +210,7 @@ def test_a_stop_with_limited_jerk(length: float, calls: int, mode: str, quick: b
     assert np.abs(np.diff(velocity, 2)).max() / CYCLE**2 <= JERK * (1 + 1e-6)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(
     st.floats(0.5, 60.0),
     st.floats(5.0, 80.0),
@@ -194,11 +218,17 @@ def test_a_stop_with_limited_jerk(length: float, calls: int, mode: str, quick: b
     st.floats(500.0, 20000.0),
     st.integers(1, 12),
 )
-def test_quadratic_is_as_fast_as_ruckig(length: float, velocity: float, acceleration: float, jerk: float, parts: int) -> None:
+def test_quadratic_is_as_fast_as_ruckig(
+    length: float, velocity: float, acceleration: float, jerk: float, parts: int
+) -> None:
     """One line, or the same in pieces: the duration is that of ruckig's time-optimal motion."""
     ruckig = pytest.importorskip("ruckig")
     given_, out = ruckig.InputParameter(1), ruckig.Trajectory(1)
-    given_.target_position, given_.max_velocity, given_.max_acceleration = [length], [velocity], [acceleration]
+    given_.target_position, given_.max_velocity, given_.max_acceleration = (
+        [length],
+        [velocity],
+        [acceleration],
+    )
     given_.max_jerk = [jerk]
     ruckig.Ruckig(1).calculate(given_, out)
     expected = out.duration

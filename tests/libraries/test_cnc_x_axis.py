@@ -80,7 +80,7 @@ def line(x0: float, y0: float, x1: float, y1: float, **more: float) -> dict[str,
 
 
 def test_a_line() -> None:
-    """Spec EX-36, CNCR-163."""
+    """Spec cnc_runtime EX-36, CNCR-163."""
     with path([line(0, 0, 100, 50)]) as one:
         assert one.at(40.0) == pytest.approx((40, 20))
         assert one.says("bWorking") == "TRUE"
@@ -89,7 +89,11 @@ def test_a_line() -> None:
         assert one.number("dVel") == pytest.approx(math.hypot(10, 5) / CYCLE)
         assert one.number("vecActTangent.dX") == pytest.approx(2 / math.sqrt(5))
         assert one.at(95.0) == pytest.approx((100, 50))
-        assert (one.says("bDone"), one.says("iStatus"), one.says("bWorking")) == ("TRUE", "IPO_FINISHED", "FALSE")
+        assert (one.says("bDone"), one.says("iStatus"), one.says("bWorking")) == (
+            "TRUE",
+            "IPO_FINISHED",
+            "FALSE",
+        )
         assert one.number("dWayPos") == pytest.approx(math.hypot(100, 50))
 
 
@@ -128,7 +132,11 @@ def test_switch_points_and_m_functions() -> None:
         one.at(20.0)
         assert (one.number("dwSwitches"), one.number("iActObjectSourceNo")) == (0, 10)
         one.at(60.0)
-        assert (one.number("dwSwitches"), one.number("iLastSwitch"), one.number("iActObjectSourceNo")) == (4, 3, 30)
+        assert (one.number("dwSwitches"), one.number("iLastSwitch"), one.number("iActObjectSourceNo")) == (
+            4,
+            3,
+            30,
+        )
 
 
 @settings(max_examples=30, deadline=None)
@@ -150,7 +158,9 @@ def test_any_polyline(steps: list[tuple[float, float]], places: list[float]) -> 
             before = [(a, b) for a, b in zip(corners, corners[1:], strict=False) if a[0] <= found[0] <= b[0]]
             assert found[0] == pytest.approx(min(max(x, 0.0), corners[-1][0]), abs=1e-9)
             distances = [
-                abs(found[1] - (a[1] + (found[0] - a[0]) / (b[0] - a[0]) * (b[1] - a[1]))) if b[0] > a[0] else 0.0
+                abs(found[1] - (a[1] + (found[0] - a[0]) / (b[0] - a[0]) * (b[1] - a[1])))
+                if b[0] > a[0]
+                else 0.0
                 for a, b in before
             ]
             assert min(distances) <= 1e-8
@@ -177,7 +187,11 @@ def test_abort_and_start_again() -> None:
         one.at(40.0)
         one.set(bAbort=True)
         one.at(50.0)
-        assert (one.says("bBusy"), one.says("bWorking"), one.says("iStatus")) == ("FALSE", "FALSE", "IPO_INIT")
+        assert (one.says("bBusy"), one.says("bWorking"), one.says("iStatus")) == (
+            "FALSE",
+            "FALSE",
+            "IPO_INIT",
+        )
         one.set(bAbort=False, bExecute=False)
         one.at(50.0)
         one.program.set("Main", xFilled=False)
