@@ -99,6 +99,8 @@ export interface ObjectKindDescriptor {
   role?: Role;
   /** Texts of the object, top to bottom; absent where it is no text. */
   parts?: readonly Part[];
+  /** Monaco's language of its text, where that is no IEC text. */
+  textLanguage?: string;
   /** The compiler gets it, so it can be excluded from the build. */
   compiled?: boolean;
   tree?: {

@@ -35,6 +35,7 @@ import {
 } from './documentState';
 import { Drafts } from './drafts';
 import { isStepsOfParts, KeptSteps, textBefore, UndoSteps, type StepsOfParts } from './undoSteps';
+import { kindOf } from '@/project/kinds';
 import { partUri, type Part } from '@/project/partUri';
 
 const AUTOSAVE_MS = 1500;
@@ -93,7 +94,7 @@ export class TextDocument {
     this.steps = { declaration: steps('declaration'), implementation: steps('implementation') };
     const model = (part: Part) => {
       const uri = monaco.Uri.parse(partUri(projectId, object.id, part));
-      const language = part === 'implementation' ? monacoLanguage(this.language) : IEC_TEXT;
+      const language = part === 'implementation' ? (kindOf(object.kind)?.textLanguage ?? monacoLanguage(this.language)) : IEC_TEXT;
       const made = monaco.editor.getModel(uri) ?? monaco.editor.createModel('', language, uri);
       this.fill(made, part, state.text[part]);
       made.updateOptions({
