@@ -105,9 +105,8 @@ function glued(behind: string): string {
   return behind === '' || /^\s/.test(behind) ? behind : ` ${behind}`;
 }
 
-/** The line with another value of a word, the word where it was not there; without it for null. */
-export function withValue(block: Block, address: string, value: string | null, of?: Word): string {
-  const word = of ?? block.words.find((one) => one.address === address);
+/** The line with another value of a word, the word where there is none; without it for null. */
+export function withValue(block: Block, word: Word | undefined, address: string, value: string | null): string {
   if (word === undefined) return value === null ? block.text : withWord(block, address, value);
   if (value === null) return cutOut(block.text, word.at, word.end);
   return replaced(block.text, word.valueAt, word.end, value);

@@ -109,7 +109,7 @@ export function withCell(block: Block, column: Column, typed: string): string {
   const text = typed.trim().replace(',', '.');
   if (column === 'comment') return withComment(block, typed.trim());
   const value = text === '' ? null : signed(column, text);
-  return withValue(block, letterOf(column), value, wordIn(block, column)) || '';
+  return withValue(block, wordIn(block, column), letterOf(column), value);
 }
 
 function signed(column: Column, text: string): string {

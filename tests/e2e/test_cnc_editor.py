@@ -1,0 +1,125 @@
+"""The CNC editor: text and table are views of one program (cnc.md CNC-02, CNC-30 to CNC-47, CNC-85)."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Locator, Page, expect
+
+from .api import fetch
+from .conftest import Server
+from .workbench import objects_stored, open_object, open_project
+
+pytestmark = pytest.mark.e2e
+
+PROJECT = "CNC machine"
+
+
+def editor_of(page: Page) -> Locator:
+    return page.locator(".dv-active-group [data-panel-id]:visible").last
+
+
+def cell(page: Page, row: int, column: int) -> Locator:
+    return (
+        editor_of(page)
+        .get_by_role("grid")
+        .get_by_role("row")
+        .nth(row + 1)
+        .get_by_role("gridcell")
+        .nth(column)
+    )
+
+
+def lines(page: Page) -> Locator:
+    return editor_of(page).locator(".view-line")
+
+
+@pytest.fixture
+def program(page: Page, server: Server) -> tuple[str, str]:
+    """A project with a new CNC program, which is open; the path of the project and the id of the object."""
+    made = fetch(page, server, "POST", "/projects", data={"name": PROJECT})
+    path = f"/projects/{made['id']}"
+    objects = fetch(page, server, "GET", f"{path}/objects")
+    application = next(item for item in objects if item["kind"] == "application")
+    item = fetch(
+        page, server, "POST", f"{path}/objects",
+        data={"kind": "cnc", "name": "Contour", "parent_id": application["id"]},
+    )  # fmt: skip
+    page.reload()
+    open_project(page, PROJECT)
+    open_object(page, "Contour")
+    expect(lines(page).first).to_have_text(re.compile("N0.G0.X0.Y0.F100"))
+    return path, str(item["id"])
+
+
+def picture(page: Page, name: str) -> None:
+    """For the eye, where a folder is named."""
+    if folder := os.environ.get("CNC_PICTURES"):
+        page.screenshot(path=Path(folder) / f"{name}.png")
+
+
+def test_text_and_table_are_one_program(page: Page, server: Server, program: tuple[str, str]) -> None:
+    """Typing shows messages and rows; a cell changes the text; undo takes it back."""
+    path, object_id = program
+
+    def stored() -> str:
+        data: dict[str, Any] = fetch(page, server, "GET", f"{path}/objects/{object_id}")["data"]
+        return str(data["implementation"])
+
+    expect(page.get_by_role("treeitem", name="CNC settings")).to_be_visible()
+    editor = editor_of(page)
+    editor.get_by_role("button", name="Text and table").click()
+    expect(cell(page, 0, 0)).to_have_text("G0")
+    expect(cell(page, 2, 0)).to_have_text("G3")
+
+    lines(page).nth(2).click()
+    page.keyboard.press("End")
+    page.keyboard.press("Enter")
+    page.keyboard.insert_text("N30 G77 X1")
+    expect(editor.get_by_role("status")).to_contain_text("1 × error")
+    expect(editor.locator(".squiggly-error")).to_be_visible()
+    picture(page, "message")
+    page.keyboard.press("End")
+    for _ in range(len("77 X1")):
+        page.keyboard.press("Backspace")
+    page.keyboard.insert_text("1 X7")
+    expect(editor.get_by_role("status")).to_contain_text("0 × error")
+    expect(cell(page, 3, 0)).to_have_text("G1")
+    expect(cell(page, 3, 2)).to_have_text("7")
+
+    cell(page, 3, 2).dblclick()
+    page.keyboard.press("Control+a")
+    page.keyboard.insert_text("42.5")
+    with objects_stored(page):
+        page.keyboard.press("Enter")
+    expect(lines(page).nth(3)).to_have_text(re.compile(r"N30.G1.X42\.5"))
+    assert stored().splitlines()[3] == "N30 G1 X42.5"
+
+    cell(page, 3, 2).click()
+    with objects_stored(page):
+        page.keyboard.press("Control+z")
+    expect(lines(page).nth(3)).to_have_text(re.compile(r"N30.G1.X7$"))
+    expect(cell(page, 3, 2)).to_have_text("7")
+    assert stored().splitlines()[3] == "N30 G1 X7"
+
+    cell(page, 0, 2).click()
+    with objects_stored(page):
+        page.keyboard.press("Delete")
+    editor.get_by_role("button", name="CNC", exact=True).click()
+    with objects_stored(page):
+        page.get_by_role("menuitem", name="Renumber Program").click()
+    expect(lines(page).nth(0)).to_have_text(re.compile("N0.G1.X50"))
+    assert [line.split()[0] for line in stored().splitlines()] == ["N0", "N10", "N20"]
+    picture(page, "both")
+
+
+def test_hovers_and_pictures(page: Page, program: tuple[str, str]) -> None:
+    """CNC-30: a word says what it means in its block, and what is in force there."""
+    lines(page).nth(2).get_by_text("R50").hover()
+    expect(page.locator(".monaco-hover-content")).to_contain_text("Radius; the arc is the smaller one")
+    expect(page.locator(".monaco-hover-content")).to_contain_text("G1 G90 G99 F100")
+    picture(page, "hover")
