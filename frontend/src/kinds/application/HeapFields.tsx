@@ -2,8 +2,9 @@ import type { Schemas } from '@/api/types';
 import { useText } from '@/i18n';
 import { Section } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
-import { Checkbox, Field, TextInput } from '@/ui/Field';
+import { Checkbox } from '@/ui/Field';
 import { LARGEST_HEAP, limitFault, USUAL_HEAP, type HeapData } from './heap';
+import { SizeField } from './SizeField';
 
 interface HeapFieldsProps {
   application: Schemas['ApplicationData'];
@@ -19,28 +20,16 @@ export function HeapFields({ application, disabled, onChange }: HeapFieldsProps)
   return (
     <Section title={t('application.heap')}>
       <div className={styles.fields}>
-        <Field
-          row
+        <SizeField
           label={t('application.heapLimit')}
           hint={t('application.heapLimitHint')}
-          error={fault && t(fault, { most: LARGEST_HEAP })}
-        >
-          {(attributes) => (
-            <div className={styles.inline}>
-              <TextInput
-                {...attributes}
-                className={styles.narrow}
-                type="number"
-                min={0}
-                max={LARGEST_HEAP}
-                disabled={disabled}
-                value={Number.isNaN(heap.limit_kib) ? '' : heap.limit_kib}
-                onValue={(value) => onChange({ ...heap, limit_kib: value === '' ? Number.NaN : Number(value) })}
-              />
-              KiB
-            </div>
-          )}
-        </Field>
+          fault={fault && t(fault, { most: LARGEST_HEAP })}
+          unit="KiB"
+          most={LARGEST_HEAP}
+          value={heap.limit_kib}
+          disabled={disabled}
+          onValue={(limit_kib) => onChange({ ...heap, limit_kib })}
+        />
         <Checkbox checked={heap.poison} disabled={disabled} onChecked={(poison) => onChange({ ...heap, poison })}>
           {t('application.heapPoison')}
         </Checkbox>

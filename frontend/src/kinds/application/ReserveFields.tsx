@@ -1,9 +1,9 @@
 import type { Schemas } from '@/api/types';
-import { useText, type TextKey } from '@/i18n';
+import { useText } from '@/i18n';
 import { Section } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
-import { Field, TextInput } from '@/ui/Field';
 import { LARGEST_PERCENT, LARGEST_RESERVE, leastFault, percentFault, USUAL_RESERVE, type ReserveData } from './reserve';
+import { SizeField } from './SizeField';
 
 interface ReserveFieldsProps {
   application: Schemas['ApplicationData'];
@@ -15,42 +15,31 @@ interface ReserveFieldsProps {
 export function ReserveFields({ application, disabled, onChange }: ReserveFieldsProps) {
   const t = useText();
   const reserve = application.change_reserve ?? USUAL_RESERVE;
-  const field = (name: keyof ReserveData, label: TextKey, hint: TextKey, fault: TextKey | null, most: number) => (
-    <Field row label={t(label)} hint={t(hint)} error={fault && t(fault, { most })}>
-      {(attributes) => (
-        <div className={styles.inline}>
-          <TextInput
-            {...attributes}
-            className={styles.narrow}
-            type="number"
-            min={0}
-            max={most}
-            disabled={disabled}
-            value={Number.isNaN(reserve[name]) ? '' : reserve[name]}
-            onValue={(value) => onChange({ ...reserve, [name]: value === '' ? Number.NaN : Number(value) })}
-          />
-          {name === 'percent' ? '%' : 'KiB'}
-        </div>
-      )}
-    </Field>
-  );
+  const percentWrong = percentFault(reserve.percent);
+  const leastWrong = leastFault(reserve.least_kib);
   return (
     <Section title={t('application.reserve')}>
       <div className={styles.fields}>
-        {field(
-          'percent',
-          'application.reservePercent',
-          'application.reservePercentHint',
-          percentFault(reserve.percent),
-          LARGEST_PERCENT,
-        )}
-        {field(
-          'least_kib',
-          'application.reserveLeast',
-          'application.reserveLeastHint',
-          leastFault(reserve.least_kib),
-          LARGEST_RESERVE,
-        )}
+        <SizeField
+          label={t('application.reservePercent')}
+          hint={t('application.reservePercentHint')}
+          fault={percentWrong && t(percentWrong, { most: LARGEST_PERCENT })}
+          unit="%"
+          most={LARGEST_PERCENT}
+          value={reserve.percent}
+          disabled={disabled}
+          onValue={(percent) => onChange({ ...reserve, percent })}
+        />
+        <SizeField
+          label={t('application.reserveLeast')}
+          hint={t('application.reserveLeastHint')}
+          fault={leastWrong && t(leastWrong, { most: LARGEST_RESERVE })}
+          unit="KiB"
+          most={LARGEST_RESERVE}
+          value={reserve.least_kib}
+          disabled={disabled}
+          onValue={(least_kib) => onChange({ ...reserve, least_kib })}
+        />
       </div>
     </Section>
   );

@@ -1,3 +1,4 @@
+import type { ReactNode } from 'react';
 import { useText } from '@/i18n';
 import { Checkbox } from '@/ui/Field';
 import type { TimeAxis, ValueAxis } from './configuration';
@@ -13,10 +14,12 @@ interface AxisFieldsProps<Axis> {
   onAxis: (axis: Axis) => void;
 }
 
+type Mark = 'minimum' | 'maximum' | 'length' | 'major' | 'minor';
+
 /** The time axis (TRC-50 to TRC-59). */
 export function TimeAxisFields({ axis, context, onAxis }: AxisFieldsProps<TimeAxis>) {
   const t = useText();
-  const text = (field: 'minimum' | 'maximum' | 'length' | 'major' | 'minor', hint?: string) => (
+  const mark = (field: Mark, hint?: string) => (
     <SettingText
       label={t(`trace.axis.${field}`)}
       field={`x.${field}`}
@@ -27,34 +30,13 @@ export function TimeAxisFields({ axis, context, onAxis }: AxisFieldsProps<TimeAx
       onValue={(value) => onAxis({ ...axis, [field]: value })}
     />
   );
-  return (
-    <>
-      <SettingChoice
-        label={t('trace.axis.mode')}
-        value={axis.mode}
-        values={MODES}
-        textOf={(mode) => t(`trace.axis.time.${mode}`)}
-        context={context}
-        onValue={(mode) => onAxis({ ...axis, mode })}
-      />
-      {axis.mode === 'fixed' && (
-        <>
-          {text('minimum')}
-          {text('maximum')}
-        </>
-      )}
-      {axis.mode === 'scrolling' && text('length')}
-      {text('major', t('trace.axis.timeHint'))}
-      {text('minor')}
-      <FurtherFields axis={axis} context={context} onAxis={onAxis} of="x" />
-    </>
-  );
+  return <AxisFields of="x" axis={axis} context={context} onAxis={onAxis} mark={mark} />;
 }
 
 /** A value axis (TRC-53 to TRC-61). */
 export function ValueAxisFields({ axis, context, onAxis }: AxisFieldsProps<ValueAxis>) {
   const t = useText();
-  const number = (field: 'minimum' | 'maximum' | 'length' | 'major' | 'minor', hint?: string) => (
+  const mark = (field: Mark, hint?: string) => (
     <SettingNumber
       label={t(`trace.axis.${field}`)}
       field={`y.${field}`}
@@ -64,33 +46,49 @@ export function ValueAxisFields({ axis, context, onAxis }: AxisFieldsProps<Value
       onValue={(value) => onAxis({ ...axis, [field]: value })}
     />
   );
+  return <AxisFields of="y" axis={axis} context={context} onAxis={onAxis} mark={mark} />;
+}
+
+const NAMES = { x: 'time', y: 'value' } as const;
+
+type Common = Pick<TimeAxis, 'mode' | 'reverse' | 'description' | 'grid' | 'grid_color' | 'arrow' | 'position'>;
+
+interface CommonFieldsProps<Axis> extends AxisFieldsProps<Axis> {
+  of: 'x' | 'y';
+}
+
+/** Both axes have the same settings; their marks are durations or numbers. */
+function AxisFields<Axis extends Common>(
+  props: CommonFieldsProps<Axis> & { mark: (field: Mark, hint?: string) => ReactNode },
+) {
+  const { of, axis, context, onAxis, mark } = props;
+  const t = useText();
+  const name = NAMES[of];
   return (
     <>
       <SettingChoice
         label={t('trace.axis.mode')}
         value={axis.mode}
         values={MODES}
-        textOf={(mode) => t(`trace.axis.value.${mode}`)}
+        textOf={(mode) => t(`trace.axis.${name}.${mode}`)}
         context={context}
         onValue={(mode) => onAxis({ ...axis, mode })}
       />
       {axis.mode === 'fixed' && (
         <>
-          {number('minimum')}
-          {number('maximum')}
+          {mark('minimum')}
+          {mark('maximum')}
         </>
       )}
-      {axis.mode === 'scrolling' && number('length')}
-      {number('major', t('trace.axis.valueHint'))}
-      {number('minor')}
-      <FurtherFields axis={axis} context={context} onAxis={onAxis} of="y" />
+      {axis.mode === 'scrolling' && mark('length')}
+      {mark('major', t(`trace.axis.${name}Hint`))}
+      {mark('minor')}
+      <FurtherFields of={of} axis={axis} context={context} onAxis={onAxis} />
     </>
   );
 }
 
-type Common = Pick<TimeAxis, 'reverse' | 'description' | 'grid' | 'grid_color' | 'arrow' | 'position'>;
-
-function FurtherFields<Axis extends Common>({ axis, context, onAxis, of }: AxisFieldsProps<Axis> & { of: 'x' | 'y' }) {
+function FurtherFields<Axis extends Common>({ axis, context, onAxis, of }: CommonFieldsProps<Axis>) {
   const t = useText();
   return (
     <>
