@@ -1,0 +1,42 @@
+"""The pins of decoder, CNC files and viewer against the catalog of the specification."""
+
+from __future__ import annotations
+
+import pytest
+from tests.libraries.transformations import CATALOG, OURS
+
+PINS_BEYOND = {"SMC_NCDecoder": {"inputs": {"fTimeBudget"}, "outputs": {"sErrorWord"}}}
+"""The time a call may take (CNCR-04), and the word at fault."""
+TYPES = {
+    ("SMC_GCodeViewer", "iActObjectSourceNo"): "DINT",
+    ("SMC_GCodeViewer", "asGCode"): "ARRAY[0..c_uiLines]OFSTRING(255)",
+}
+"""Line numbers beyond 32,767 (CNCR-C20); lines longer than 80 characters."""
+OPEN = {"piStartPosition", "ncprog", "poqDataOut", "iStatus", "GCodeText", "asGCode"}
+"""Their initial values are those of their types."""
+BLOCKS = ("SMC_NCDecoder", "SMC_ReadNCFile", "SMC_ReadNCQueue", "SMC_GCodeViewer")
+
+
+@pytest.mark.parametrize("name", BLOCKS)
+@pytest.mark.parametrize("section", ["in_out", "inputs", "outputs"])
+def test_pins_are_those_of_the_catalog(name: str, section: str) -> None:
+    """Names in their order, types, initial values; what is beyond stands behind them."""
+    said = {pin["name"]: pin for pin in CATALOG[name][section]}
+    ours = {pin.name: pin for pin in getattr(OURS[name], section)}
+    beyond = PINS_BEYOND.get(name, {}).get(section, set())
+    assert [*ours] == [*said, *beyond]
+    for pin, entry in said.items():
+        wanted = TYPES.get((name, pin), entry["type"]).replace(" ", "").removeprefix("SM3_Basic.")
+        assert ours[pin].type.replace(" ", "").removeprefix("SM3_Basic.") == wanted
+        default = ours[pin].default
+        if default and pin not in OPEN:
+            assert default == entry["default"]
+        elif pin not in OPEN:
+            assert entry["default"] in (None, "0", "FALSE", "''", "SMC_NO_ERROR")
+
+
+@pytest.mark.parametrize("name", [*BLOCKS, "SMC_GCODE_TEXT"])
+def test_every_pin_says_what_it_is(name: str) -> None:
+    item = OURS[name]
+    assert item.summary
+    assert all(pin.comment for pin in (*item.inputs, *item.outputs, *item.in_out, *item.members))
