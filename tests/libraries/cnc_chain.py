@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -208,7 +209,7 @@ def gaps(objects: Sequence[Geo]) -> float:
     """The largest step between the objects of a path, and between their positions and their curves."""
     largest = 0.0
     moving = [geo for geo in objects if geo.kind != 120]
-    for first, second in zip(moving[:-1], moving[1:], strict=True):
+    for first, second in pairwise(moving):
         largest = max(largest, float(np.abs(first.end - second.start).max()))
     for geo in moving:
         axes = 3 if geo.space else 2

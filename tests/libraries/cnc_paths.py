@@ -180,7 +180,8 @@ def spline(x: list[float], y: list[float], z: list[float] | None = None, **membe
 def path(pieces: list[tuple[float, ...]], **members: float) -> list[Geo]:
     """A path in X, Y of lines (turn, length), arcs (turn, radius, swept), ellipses (turn, a, b, swept).
 
-    An ellipse begins at a tip of its main axis; `turn` is the angle of the corner in front [deg]; swept above 0 is clockwise.
+    An ellipse begins at a tip of its main axis; `turn` is the angle of the
+    corner in front [deg]; swept above 0 is clockwise.
     """
     found: list[Geo] = []
     here, heading = np.zeros(2), 0.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ def polyline(*points: tuple[float, ...], marks: dict[int, int] | None = None, **
     given = {"dVel": 100.0, "dVelEnd": 100.0} | members
     return [
         line(position(*first), position(*second), byInternMark=(marks or {}).get(n, 0), **given)
-        for n, (first, second) in enumerate(zip(points[:-1], points[1:], strict=True))
+        for n, (first, second) in enumerate(pairwise(points))
     ]
 
 
@@ -97,7 +98,7 @@ def test_the_radius_is_input_plus_word_d() -> None:
 
 
 def pairs(points: list[tuple[float, float]]) -> list[tuple[tuple[float, float], tuple[float, float]]]:
-    return list(zip(points[:-1], points[1:], strict=True))
+    return list(pairwise(points))
 
 
 @pytest.mark.parametrize(("side", "radius"), [(LEFT, 8), (RIGHT, 12)])
@@ -497,7 +498,7 @@ def test_inputs_that_are_none_are_refused(name: str, inputs: str) -> None:
 
 @pytest.mark.parametrize("piece", [(30.0, 20.0), (30.0, 20.0, 130.0), (0.0, 40.0, 15.0, -140.0)])
 def test_dynamics_of_the_axes_of_the_path(piece: tuple[float, ...]) -> None:
-    """SMC_LimitDynamics: X and Y keep their limits at every place, with the path accelerating or braking at its limit."""
+    """SMC_LimitDynamics: X and Y keep their limits at every place, also on ramps."""
     geo = path([piece], dVel=1000.0, dVelEnd=1000.0, dAccel=10000.0, dDecel=10000.0)[0]
     block = Block("SMC_LimitDynamics", "wAxis := 3, dMaxVel := 12, dMaxAcc := 50, dMaxDec := 40")
     found = through([geo], block).objects[0]
@@ -525,7 +526,7 @@ def test_dynamics_of_the_axes_of_the_path(piece: tuple[float, ...]) -> None:
     ("degrees", "expected"), [(90, 10 / math.sqrt(2)), (60, 10.0), (180, 5.0), (4, 100.0)]
 )
 def test_the_velocity_at_a_corner(degrees: float, expected: float) -> None:
-    """SMC_ReduceVelEndAtCorner: the vector of the velocity jumps by 10 at most; up to 5 degrees nothing is done."""
+    """SMC_ReduceVelEndAtCorner: the velocity jumps by 10 at most; 4 degrees are below its angle."""
     end = (10 + 10 * math.cos(math.radians(degrees)), 10 * math.sin(math.radians(degrees)))
     objects = polyline((0, 0), (10, 0), end)
     found = through(objects, Block("SMC_ReduceVelEndAtCorner", "dAngle := 5, dMaxVelJump := 10")).objects
@@ -533,7 +534,7 @@ def test_the_velocity_at_a_corner(degrees: float, expected: float) -> None:
 
 
 def test_long_objects_are_split() -> None:
-    """SMC_ObjectSplitter: 20 in parts of 7 at most are three; a switch point lies on one part, marks on one end each."""
+    """SMC_ObjectSplitter: three parts; a switch point lies on one of them, marks on one end each."""
     objects = polyline((0, 0), (20, 0), marks={0: SMOOTH | CORNERS_OFF})
     objects[0].members |= {"dHelpPos[0]": 0.5, "iHelpID[0]": 3}
     found = through(objects, Block("SMC_ObjectSplitter", "dMaxLength := 7")).objects
@@ -581,7 +582,7 @@ END_PROGRAM
     ],
 )
 def test_the_box_of_a_path(second: Geo, positive: int, negative: int) -> None:
-    """EX-16. Spec CNCR-103, CNCR-26: the apex of an arc counts, what touches a limit is inside, the path is not changed."""
+    """EX-16. Spec CNCR-103, CNCR-26: the apex counts, a limit is inside, the path is not changed."""
     second.members["iSourceLine_No"] = 20.0
     objects = [line(position(0, 0), position(40, 50)), second, line(position(), position())]
     with run(LIMITS, cycles=0) as program:
