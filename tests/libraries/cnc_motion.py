@@ -1,4 +1,4 @@
-"""A path of hand-made objects through SMC_CheckVelocities and SMC_Interpolator, and what came out in every cycle."""
+"""Hand-made objects through SMC_CheckVelocities and an interpolator, and what came out in every cycle."""
 
 from __future__ import annotations
 

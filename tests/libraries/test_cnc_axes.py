@@ -1,4 +1,4 @@
-"""From the path to the axes: SMC_ControlAxisByPos, ...PosVel, ...Vel with a virtual axis, and SMC_XInterpolator."""
+"""From the path to the axes: SMC_ControlAxisByPos, ...PosVel and ...Vel with a virtual axis."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ PROGRAM = f"""
 PROGRAM Main
 VAR
     Axis  : SM3_Basic.AXIS_REF_VIRTUAL_SM3 := (
-        fTaskCycle := {CYCLE}, fSWMaxVelocity := 1000, fSWMaxAcceleration := 10000, fSWMaxDeceleration := 10000,
-        fMaxVelocity := 1E9, fMaxAcceleration := 1E12, fMaxDeceleration := 1E12);
+        fTaskCycle := {CYCLE}, fSWMaxVelocity := 1000, fSWMaxAcceleration := 10000,
+        fSWMaxDeceleration := 10000, fMaxVelocity := 1E9, fMaxAcceleration := 1E12, fMaxDeceleration := 1E12);
     Power : SM3_Basic.MC_Power := (Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE);
     Other : SM3_Basic.MC_MoveVelocity := (Velocity := 10, Acceleration := 100, Deceleration := 100,
         Direction := SM3_Basic.MC_DIRECTION.positive);

@@ -1,4 +1,4 @@
-"""An endless program through the chain: a generator, the velocity check and the interpolator, for a day of virtual time."""
+"""An endless path: a generator, the velocity check and the interpolator, for a day of virtual time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ VAR
     dwBefore : DWORD;
     wBefore : WORD;
     dBefore, dSteepest, dFastest : LREAL;
-    dMade, dWay, dOff : LREAL; (* Way of the generator and of the interpolator; largest distance from the path *)
+    dMade, dWay, dOff : LREAL; (* Ways of generator and interpolator; largest distance from the path *)
     xWrong  : BOOL;
     udiMs, udiLines : UDINT; (* M functions and lines of the generator *)
     dAt     : LREAL;         (* Angle that it has come to [degrees] *)
@@ -55,8 +55,8 @@ FOR n := 1 TO nCalls DO
     dSteepest := MAX(dSteepest, ABS(ipo.dVel - dBefore));
     dFastest := MAX(dFastest, ipo.dVel);
     dBefore := ipo.dVel;
-    dOff := MAX(dOff, ABS(SQRT(ipo.piSetPosition.dX * ipo.piSetPosition.dX + ipo.piSetPosition.dY * ipo.piSetPosition.dY)
-        - 100.0));
+    dOff := MAX(dOff, ABS(SQRT(ipo.piSetPosition.dX * ipo.piSetPosition.dX
+        + ipo.piSetPosition.dY * ipo.piSetPosition.dY) - 100.0));
     xWrong := xWrong OR ipo.bError OR ipo.bDone OR check.bError OR ipo.wErrorID = 1003;
 END_FOR
 END_PROGRAM

@@ -1,4 +1,4 @@
-"""SMC_CheckVelocities and SMC_Interpolator: the worked examples of the specification (cnc_runtime EX-20, EX-30 to EX-35)."""
+"""SMC_CheckVelocities and SMC_Interpolator: worked examples, cnc_runtime EX-20 and EX-30 to EX-35."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from tests.libraries.cnc_motion import (
     CONSTANT,
     DECEL,
     FINISHED,
-    MCOMMAND,
     LINPOS,
+    MCOMMAND,
     WAIT,
     Motion,
     Object,
@@ -43,7 +43,7 @@ SIGMOID = {0.1: (0.161277, 4.774575), 0.25: (2.271126, 25), 0.4: (7.661277, 45.2
 
 
 def at(seconds: float) -> int:
-    """The call that shows what is so many seconds after the start: the first one shows the first cycle's end."""
+    """The call that shows what is so many seconds after the start: the first shows the end of a cycle."""
     return round(seconds / CYCLE) - 1
 
 
@@ -102,7 +102,7 @@ def test_a_peak() -> None:
 
 @pytest.mark.parametrize(("override", "duration"), [(0.5, 4.25), (2.0, 2.0)])
 def test_override_from_the_start(override: float, duration: float) -> None:
-    """Spec cnc_runtime EX-30; with 2 the velocity only comes up to 100 where the ramps leave it: 100 u are two ramps of 50 u."""
+    """Spec cnc_runtime EX-30; with 2 the 100 u are just two ramps of 50 u up to 100 u/s and down."""
     with motion(LINE, dOverride=override) as path:
         assert done_at(seconds(path, 5)) == pytest.approx(duration)
 
@@ -240,7 +240,7 @@ def test_single_step(single: bool, duration: float) -> None:
 
 
 def test_single_step_too_late() -> None:
-    """Spec CNCR-144: 5 u before the end of the first object there is no way to stop there; at the end of the next there is."""
+    """Spec CNCR-144: 5 u before the end of the first object it is too late; not for the end of the next."""
     with motion([Object(50.0), Object(50.0), Object(50.0)]) as path:
         assert seconds(path, 1.15)["aS"][-1] == pytest.approx(45)
         path.set(bSingleStep=True)

@@ -1,4 +1,4 @@
-"""SMC_Interpolator2Dir with its slow task: back and forth on a path, against closed forms and the way forward."""
+"""SMC_Interpolator2Dir with its slow task: back and forth on a path, against closed forms."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ TEXT = program_text(
     aDirection : ARRAY[0..1999] OF LREAL;""",
     calls="""IF n > 0 THEN aDirection[n - 1] := ipo.nDirection; END_IF
     IF xSlow THEN
-        slow(ipo2d := ipo, nSizeOutQueue := nBack * SIZEOF(SM3_CNC.SMC_GEOINFO), pbyBufferOutQueue := ADR(aBack));
+        slow(ipo2d := ipo, nSizeOutQueue := nBack * SIZEOF(SM3_CNC.SMC_GEOINFO),
+            pbyBufferOutQueue := ADR(aBack));
     END_IF""",
 )
 CYCLE = 0.01
@@ -117,7 +118,7 @@ def mirrored(path: list[Object]) -> list[Object]:
     ]
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(PATHS, st.sampled_from([1.0, 0.3]), st.sampled_from(["TRAPEZOID", "SIGMOID"]))
 def test_the_whole_way_back_is_the_shortest(path: list[Object], override: float, mode: str) -> None:
     """Duration of the way back against a time-optimal plan in numpy of the mirrored path."""
@@ -134,7 +135,7 @@ def test_the_whole_way_back_is_the_shortest(path: list[Object], override: float,
     assert (np.diff(found["aS"]) <= 1e-9).all()
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(
     PATHS,
     st.lists(
@@ -145,7 +146,7 @@ def test_the_whole_way_back_is_the_shortest(path: list[Object], override: float,
     st.sampled_from(["TRAPEZOID", "SIGMOID", "QUADRATIC"]),
 )
 def test_a_hand_wheel(path: list[Object], turns: list[tuple[int, float]], mode: str) -> None:
-    """Spec CNCR-162: any override at any time; never off the path, never faster, never steeper than the accelerations."""
+    """Spec CNCR-162: any override at any time; never off the path, too fast or steeper than may be."""
     total = sum(item.length for item in path)
     fastest = max(item.velocity for item in path) * 2
     steepest = max(max(item.acceleration, item.deceleration) for item in path) * (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -127,7 +128,7 @@ def test_an_arc() -> None:
 def test_switch_points_and_m_functions() -> None:
     """M functions do not hold the axis; switch points act."""
     first = line(0, 0, 50, 0, **{"dHelpPos[0]": 0.5, "iHelpID[0]": 3, "iSourceLine_No": 10})
-    stop = {"iMoveType": 120, "iHelpID[0]": 7}
+    stop: dict[str, float] = {"iMoveType": 120, "iHelpID[0]": 7}
     with path([first, stop, line(50, 0, 100, 0, iSourceLine_No=30)]) as one:
         one.at(20.0)
         assert (one.number("dwSwitches"), one.number("iActObjectSourceNo")) == (0, 10)
@@ -149,13 +150,13 @@ def test_any_polyline(steps: list[tuple[float, float]], places: list[float]) -> 
     corners = [(0.0, 0.0)]
     for dx, dy in steps:
         corners.append((corners[-1][0] + dx, corners[-1][1] + dy))
-    objects = [line(*a, *b) for a, b in zip(corners, corners[1:], strict=False)]
+    objects = [line(*a, *b) for a, b in itertools.pairwise(corners)]
     with path(objects) as one:
         for x in sorted(places):
             found = one.at(x)
             if one.says("bDone") == "TRUE":
                 break
-            before = [(a, b) for a, b in zip(corners, corners[1:], strict=False) if a[0] <= found[0] <= b[0]]
+            before = [(a, b) for a, b in itertools.pairwise(corners) if a[0] <= found[0] <= b[0]]
             assert found[0] == pytest.approx(min(max(x, 0.0), corners[-1][0]), abs=1e-9)
             distances = [
                 abs(found[1] - (a[1] + (found[0] - a[0]) / (b[0] - a[0]) * (b[1] - a[1])))
