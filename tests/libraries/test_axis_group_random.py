@@ -51,7 +51,7 @@ def _largest_distance(points: np.ndarray, corners: list[np.ndarray]) -> float:
     return float(nearest.max())
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(st.lists(MOVE, min_size=1, max_size=4))
 def test_commands_that_are_queued_at_once(moves: list[dict[str, Any]]) -> None:
     """AG-30 to AG-38, AG-54, AG-55, AG-57: durations and velocities of the formulas."""
@@ -114,7 +114,7 @@ def _free(group: AxisGroup) -> str | None:
     return next((block for block in BLOCKS if not group.flag(f"{block}.Busy")), None)
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(st.lists(st.tuples(ACTION, st.integers(1, 120)), min_size=1, max_size=12))
 def test_commands_at_any_time(actions: list[tuple[tuple[str, Any], int]]) -> None:
     """AG-04, AG-14 to AG-19, AG-33, AG-35, AG-39: whatever comes, the group stays on its path and comes to its end."""
