@@ -185,7 +185,9 @@ def write_words(program: Program, words: list[CodeWord]) -> None:
     assert len(words) <= WORDS
     for n, word in enumerate(words):
         program.set("Main", **{f"aWords[{n}].byLetter": word.letter, f"aWords[{n}].fValue": word.value})
-        program.set("Main", **{f"aWords[{n}].diValue": round(word.value) if abs(word.value) < 2**31 else 0})
+        program.set(
+            "Main", **{f"aWords[{n}].diValue": round(word.value) if -(2**31) < word.value < 2**31 else 0}
+        )
     program.set("Main", **{"ncprog.nElements": len(words)})
 
 
