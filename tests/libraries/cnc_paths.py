@@ -91,7 +91,7 @@ class Geo:
     def length(self, end: float = 1.0) -> float:
         """By scipy.integrate.quad; of the way up to a parameter."""
         cuts = np.linspace(0.0, end, 9)
-        return sum(
+        return math.fsum(
             quad(lambda u: float(np.linalg.norm(self.slope(u))), a, b, epsabs=1e-12, epsrel=1e-12, limit=200)[
                 0
             ]
@@ -177,7 +177,7 @@ def spline(x: list[float], y: list[float], z: list[float] | None = None, **membe
     return found
 
 
-def path(pieces: list[tuple[float, ...]], **members: float) -> list[Geo]:
+def path(pieces: list[tuple[float, ...]], **members: Any) -> list[Geo]:
     """A path in X, Y of lines (turn, length), arcs (turn, radius, swept), ellipses (turn, a, b, swept).
 
     An ellipse begins at a tip of its main axis; `turn` is the angle of the

@@ -597,3 +597,45 @@ def test_the_box_of_a_path(second: Geo, positive: int, negative: int) -> None:
 
 
 PINS = ("wAxisOutOfLimits", "iSourceLine_No", "wLimitSwPositive", "wLimitSwNegative")
+
+
+HANDSHAKE = [
+    *("SMC_TranslateQueue3D", "SMC_RotateQueue2D", "SMC_ScaleQueue3D", "SMC_ToolCorr", "SMC_ToolRadiusCorr"),
+    *("SMC_AvoidLoop", "SMC_SmoothPath", "SMC_RoundPath", "SMC_LimitCircularVelocity", "SMC_LimitDynamics"),
+    *("SMC_ExtendedVelocityChecks", "SMC_LimitAddAxisDynamics", "SMC_ObjectSplitter"),
+    *("SMC_ReduceVelEndAtCorner", "SMC_CheckForLimits"),
+]
+
+
+def test_what_is_no_queue_is_refused_and_no_queue_waited_for() -> None:
+    """Spec CNCR-14, CNCR-25: every block, error 1501; with 0 it waits; without bExecute the error is gone."""
+    blocks = "".join(f"    f{n} : SM3_CNC.{name};\n" for n, name in enumerate(HANDSHAKE))
+    calls = ""
+    for n, name in enumerate(HANDSHAKE):
+        buffer = (
+            ""
+            if name == "SMC_CheckForLimits"
+            else ", nSizeOutQueue := SIZEOF(aBuffer), pbyBufferOutQueue := ADR(aBuffer)"
+        )
+        calls += f"f{n}(bExecute := xExecute, poqDataIn := pIn{buffer}); a[{n}] := f{n}.wErrorID;\n"
+    text = f"""
+PROGRAM Main
+VAR
+{blocks}    aBuffer : ARRAY[1..6] OF SM3_CNC.SMC_GEOINFO;
+    other : SM3_CNC.SMC_OUTQUEUE := (wOUTQUEUEStructID := 1);
+    pIn : POINTER TO SM3_CNC.SMC_OUTQUEUE;
+    xGiven, xExecute : BOOL;
+    a : ARRAY[0..{len(HANDSHAKE) - 1}] OF INT;
+END_VAR
+pIn := 0;
+IF xGiven THEN
+    pIn := ADR(other);
+END_IF
+{calls}
+END_PROGRAM
+"""
+    with run(text, cycles=0) as program:
+        for given, execute, error in ((False, True, 0), (True, True, 1501), (True, False, 0)):
+            program.set("Main", xGiven=given, xExecute=execute)
+            program.cycle()
+            assert program.numbers("Main.a") == [error] * len(HANDSHAKE)
