@@ -15,6 +15,19 @@ CALLS = 2000
 LIN, LINPOS, LINADDAXES, INITPOS, MCOMMAND = 1, 100, 102, 110, 120
 ACCEL, CONSTANT, DECEL, FINISHED, WAIT = 2, 3, 4, 5, 6
 
+
+def chain(capacity: int) -> str:
+    """Declarations of a queue with a buffer for so many objects, and the velocity check."""
+    return f"""queue   : SM3_CNC.SMC_OUTQUEUE;
+    aBuffer : ARRAY[1..{capacity}] OF SM3_CNC.SMC_GEOINFO;
+    geo     : SM3_CNC.SMC_GEOINFO;
+    check   : SM3_CNC.SMC_CheckVelocities;"""
+
+
+BUFFER = """queue.pbyBuffer := ADR(aBuffer);
+    SM3_CNC.SMC_SetQueueCapacity(ADR(queue), SIZEOF(aBuffer));
+    SM3_CNC.SMC_OutQueueInit(ADR(queue));"""
+"""Gives the queue its buffer."""
 _RECORDED = {
     "aS": "ipo.piSetPosition.dX",
     "aY": "ipo.piSetPosition.dY",
@@ -42,11 +55,8 @@ def program_text(
     return f"""
 PROGRAM Main
 VAR
-    queue   : SM3_CNC.SMC_OUTQUEUE;
-    aBuffer : ARRAY[1..{CAPACITY}] OF SM3_CNC.SMC_GEOINFO;
+    {chain(CAPACITY)}
     aPath   : ARRAY[0..{CAPACITY - 1}] OF SM3_CNC.SMC_GEOINFO;
-    geo     : SM3_CNC.SMC_GEOINFO;
-    check   : SM3_CNC.SMC_CheckVelocities;
     ipo     : SM3_CNC.{block} := (dwIpoTime := 10000);
     {declarations}
     xStarts : BOOL := TRUE;
@@ -62,9 +72,7 @@ VAR
 END_VAR
 IF xStarts THEN
     xStarts := FALSE;
-    queue.pbyBuffer := ADR(aBuffer);
-    SM3_CNC.SMC_SetQueueCapacity(ADR(queue), SIZEOF(aBuffer));
-    SM3_CNC.SMC_OutQueueInit(ADR(queue));
+    {BUFFER}
     nFed := 0;
     nEveryCalls := 0;
 END_IF

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from tests.libraries.cnc_motion import BUFFER, chain
 from tests.libraries.st_program import run
 
 CAPACITY = 40
@@ -11,10 +12,7 @@ CALLS = 100_000
 PROGRAM = f"""
 PROGRAM Main
 VAR
-    queue   : SM3_CNC.SMC_OUTQUEUE;
-    aBuffer : ARRAY[1..{CAPACITY}] OF SM3_CNC.SMC_GEOINFO;
-    geo     : SM3_CNC.SMC_GEOINFO;
-    check   : SM3_CNC.SMC_CheckVelocities;
+    {chain(CAPACITY)}
     ipo     : SM3_CNC.SMC_Interpolator := (dwIpoTime := 10000, iVelMode := SM3_CNC.SMC_INT_VELMODE.SIGMOID);
     xFilled : BOOL;
     n, nCalls : DINT;
@@ -33,9 +31,7 @@ VAR
 END_VAR
 IF NOT xFilled THEN
     xFilled := TRUE;
-    queue.pbyBuffer := ADR(aBuffer);
-    SM3_CNC.SMC_SetQueueCapacity(ADR(queue), SIZEOF(aBuffer));
-    SM3_CNC.SMC_OutQueueInit(ADR(queue));
+    {BUFFER}
 END_IF
 FOR n := 1 TO nCalls DO
     WHILE NOT queue.bFull DO

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.libraries.cnc_motion import BUFFER, chain
 from tests.libraries.st_program import run
 
 CAPACITY = 12
@@ -18,10 +19,7 @@ CYCLE = 0.01
 PROGRAM = f"""
 PROGRAM Main
 VAR
-    queue   : SM3_CNC.SMC_OUTQUEUE;
-    aBuffer : ARRAY[1..{CAPACITY}] OF SM3_CNC.SMC_GEOINFO;
-    geo     : SM3_CNC.SMC_GEOINFO;
-    check   : SM3_CNC.SMC_CheckVelocities;
+    {chain(CAPACITY)}
     ipo     : SM3_CNC.SMC_Interpolator := (dwIpoTime := {round(CYCLE * 1e6)}, bAcknM := TRUE);
     read    : SM3_CNC.SMC_GetMParameters := (bEnable := TRUE);
     xFilled : BOOL;
@@ -35,9 +33,7 @@ VAR
 END_VAR
 IF NOT xFilled THEN
     xFilled := TRUE;
-    queue.pbyBuffer := ADR(aBuffer);
-    SM3_CNC.SMC_SetQueueCapacity(ADR(queue), SIZEOF(aBuffer));
-    SM3_CNC.SMC_OutQueueInit(ADR(queue));
+    {BUFFER}
     check(bExecute := TRUE, poqDataIn := ADR(queue));
 END_IF
 nCalls := 0;

@@ -10,14 +10,14 @@ from contextlib import contextmanager
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.libraries.cnc_motion import BUFFER, chain
 from tests.libraries.st_program import Program, run
 
 CYCLE = 0.01
 PROGRAM = f"""
 PROGRAM Main
 VAR
-    queue   : SM3_CNC.SMC_OUTQUEUE;
-    aBuffer : ARRAY[1..50] OF SM3_CNC.SMC_GEOINFO;
+    {chain(50)}
     aPath   : ARRAY[0..40] OF SM3_CNC.SMC_GEOINFO;
     Axis    : SM3_Basic.AXIS_REF_VIRTUAL_SM3 := (fTaskCycle := {CYCLE});
     ipo     : SM3_CNC.SMC_XInterpolator := (bExecute := TRUE);
@@ -27,9 +27,7 @@ VAR
 END_VAR
 IF NOT xFilled AND nObjects > 0 THEN
     xFilled := TRUE;
-    queue.pbyBuffer := ADR(aBuffer);
-    SM3_CNC.SMC_SetQueueCapacity(ADR(queue), SIZEOF(aBuffer));
-    SM3_CNC.SMC_OutQueueInit(ADR(queue));
+    {BUFFER}
     FOR n := 0 TO nObjects - 1 DO
         SM3_CNC.SMC_CalcLengthGeo(ADR(aPath[n]));
         SM3_CNC.SMC_AppendObj(ADR(queue), ADR(aPath[n]));
