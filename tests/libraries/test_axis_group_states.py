@@ -235,7 +235,7 @@ def test_a_fault_of_one_axis_stops_the_group_on_its_path(group: AxisGroup) -> No
 
 
 def test_axes_of_a_group(group: AxisGroup) -> None:
-    """AG-01, AG-02, AG-03: an axis is in one group, under one number, while the group is disabled."""
+    """AG-01, AG-02, AG-03, AG-51: an axis is in one group, under one number, while the group is disabled."""
     assert group.number("Group.iAxes") == 3
     group.start("AddElsewhere")
     assert int(group.number("AddElsewhere.ErrorID")) == ERRORS["IN_GROUP"]
@@ -274,3 +274,14 @@ def test_exactly_one_state_is_told() -> None:
             bring(fresh, state)
             fresh.cycle()
             assert {name for name in STATES if fresh.flag(f"Status.{name}")} == {state}
+
+
+def test_axes_without_power_are_not_moved(group: AxisGroup) -> None:
+    """AG-10, AG-50 (V-1): the group may be enabled without power, its movements are errors of their blocks."""
+    group.power(on=False)
+    group.start("Enable")
+    assert group.outputs("Enable") == {"Done"}
+    group.start("Linear1", **FAR)
+    assert group.outputs("Linear1") == {"Error"}
+    assert group.error("Linear1") == ERRORS["POWER"]
+    assert group.state == "GroupStandby"
