@@ -1,4 +1,4 @@
-"""Three virtual axes in a group with instances of the blocks of SM3_AxisGroup, moved cycle by cycle by what a test gives them."""
+"""Three virtual axes in a group with instances of the blocks of SM3_AxisGroup, moved by what a test gives them."""
 
 from __future__ import annotations
 
@@ -141,7 +141,7 @@ class AxisGroup:
         self._application = application
         self.cycles = 0
 
-    def set(self, block: str, **inputs: object) -> None:
+    def put(self, block: str, **inputs: object) -> None:
         """Writes inputs of a block, arrays by their elements from 0 on, or members of a variable."""
         for name, value in inputs.items():
             if isinstance(value, (list, tuple)):
@@ -157,13 +157,13 @@ class AxisGroup:
 
     def give(self, block: str, **inputs: object) -> None:
         """Inputs of a block and Execute, for the next cycle."""
-        self.set(block, **inputs, Execute=True)
+        self.put(block, **inputs, Execute=True)
 
     def start(self, block: str, **inputs: object) -> None:
         """Gives a block its inputs and a rising edge, and has one cycle; Execute goes then."""
         self.give(block, **inputs)
         self.cycle()
-        self.set(block, Execute=False)
+        self.put(block, Execute=False)
 
     def cycle(self, count: int = 1) -> None:
         for _ in range(count):
@@ -179,7 +179,9 @@ class AxisGroup:
         return self._application.literal(f"Main.{path}")
 
     def number(self, path: str) -> float:
-        return float(self._application.read(f"Main.{path}"))  # type: ignore[arg-type]
+        value = self._application.read(f"Main.{path}")
+        assert isinstance(value, (int, float))
+        return float(value)
 
     def outputs(self, block: str) -> set[str]:
         """Which outputs of an Execute block are TRUE."""
@@ -192,7 +194,7 @@ class AxisGroup:
         return {name for name in names if self.text(f"{block}.{name}") == "TRUE"}
 
     def error(self, block: str) -> int:
-        return int(self._application.read(f"Main.{block}.ErrorID"))  # type: ignore[call-overload]
+        return int(self.number(f"{block}.ErrorID"))
 
     @property
     def state(self) -> str:
@@ -233,7 +235,7 @@ class AxisGroup:
         return (self.cycles - first) * CYCLE
 
     def power(self, on: bool = True) -> None:
-        self.set("Power", Enable=True, bRegulatorOn=on, bDriveStart=on)
+        self.put("Power", Enable=True, bRegulatorOn=on, bDriveStart=on)
         self.cycle(3)
 
 

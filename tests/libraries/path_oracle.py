@@ -1,7 +1,8 @@
-"""How fast a group moves along its path, by the formulas of axis_group 6: written from the specification, not from the library."""
+"""How fast a group moves along its path, by the formulas of axis_group 6, written from the specification."""
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import NamedTuple
 
@@ -132,7 +133,7 @@ class Move(NamedTuple):
 
 def joined(moves: list[Move], start: float = 0.0) -> list[float]:
     """Velocities at the ends of movements that are all queued at once (axis_group 3 and V-5, V-6)."""
-    wanted = [blend(b.mode, a.velocity, b.velocity) for a, b in zip(moves, moves[1:], strict=False)] + [0.0]
+    wanted = [blend(b.mode, a.velocity, b.velocity) for a, b in itertools.pairwise(moves)] + [0.0]
     for index in range(len(moves) - 2, -1, -1):
         following = moves[index + 1]
         if wanted[index] > wanted[index + 1]:

@@ -1,4 +1,4 @@
-"""What SM3_AxisGroup offers against the catalog of the specification: pins, types and values of enumerations."""
+"""What SM3_AxisGroup offers against the catalog of the specification: pins, types, values of enumerations."""
 
 from __future__ import annotations
 

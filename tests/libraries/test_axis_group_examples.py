@@ -22,8 +22,12 @@ MOVES = {
     "Linear3": {"Position": tuple(C), "Velocity": 70.0, **DYNAMICS},
 }
 MODES = {
-    **{"Aborting": 0, "Buffered": 1, "BlendingLow": 2},
-    **{"BlendingPrevious": 3, "BlendingNext": 4, "BlendingHigh": 5},
+    "Aborting": 0,
+    "Buffered": 1,
+    "BlendingLow": 2,
+    "BlendingPrevious": 3,
+    "BlendingNext": 4,
+    "BlendingHigh": 5,
 }
 SAMPLES = [
     *((1.25, 1, 1.5625, 0.484, 0.363, 0.242), (2.5, 1, 6.25, 3.869, 2.901, 1.934)),
@@ -64,7 +68,8 @@ def test_table_2_of_the_paper(group: AxisGroup) -> None:
     """EX-AG-01 and EX-AG-09; AG-03, AG-05, AG-12, AG-13, AG-30, AG-31, AG-34, AG-37, AG-38, AG-40."""
     give(group, "Aborting", "BlendingLow", "BlendingHigh")
     first = group.cycles
-    rows, accelerations, seen = [], [], {}
+    rows, accelerations = [], []
+    seen: dict[str, float] = {}
     while len(seen) < 3:
         group.cycle()
         time = (group.cycles - first) * CYCLE
@@ -84,7 +89,10 @@ def test_table_2_of_the_paper(group: AxisGroup) -> None:
     assert list(seen.values()) == pytest.approx([59.1016, 149.5733, 191.2958], abs=tolerance(3))
     trace = np.array(rows)
     times, points, speeds = trace[:, 0], trace[:, 1:4], trace[:, 4]
-    at = lambda time: int(np.argmin(np.abs(times - time)))  # noqa: E731
+
+    def at(time: float) -> int:
+        return int(np.argmin(np.abs(times - time)))
+
     assert speeds[at(59.1016)] == pytest.approx(40, abs=0.1)
     assert speeds[at(149.5733)] == pytest.approx(70, abs=0.1)
     assert speeds[-1] == 0
@@ -146,7 +154,7 @@ def test_all_mode_combinations(
 
 @pytest.mark.parametrize("mode", ["BlendingLow", "BlendingPrevious", "BlendingNext", "BlendingHigh"])
 def test_falling_velocities(group: AxisGroup, mode: str) -> None:
-    """EX-AG-02, the other pairing: with falling velocities Low is that of the next block, High that of the previous."""
+    """EX-AG-02, the other pairing: with falling velocities Low is that of the next block."""
     group.give("Linear1", **{**MOVES["Linear1"], "Velocity": 55.0}, BufferMode=0)
     group.give("Linear2", **{**MOVES["Linear2"], "Velocity": 40.0}, BufferMode=MODES[mode])
     group.cycle()
@@ -214,7 +222,7 @@ def test_late_queueing(group: AxisGroup) -> None:
 
 
 def test_late_queueing_that_cannot_come_back(group: AxisGroup) -> None:
-    """EX-AG-05, enabled at 55.5 s; AG-54: the velocity at A is the highest that is reached without acceleration."""
+    """EX-AG-05, at 55.5 s; AG-54: the velocity at A is the highest that is reached without acceleration."""
     give(group, "Aborting")
     group.after(55.5)
     first = group.cycles
@@ -280,7 +288,7 @@ def test_stop(group: AxisGroup) -> None:
     group.after(1.0)
     assert group.state == "GroupStopping"
     assert group.outputs("Stop1") == {"Done", "Busy", "Active"}
-    group.set("Stop1", Execute=False)
+    group.put("Stop1", Execute=False)
     group.cycle()
     assert group.state == "GroupStandby"
     assert group.text("X.nAxisState") == "standstill"
@@ -304,7 +312,7 @@ def test_interrupt_and_continue(group: AxisGroup) -> None:
     assert group.outputs("Linear1") == {"Busy", "Active"}
     assert group.until_done("Linear1") + 2 * CYCLE == pytest.approx(34.3516, abs=tolerance(2))
     assert group.outputs("Linear2") == {"Busy", "Active"}
-    group.set("GoOn", Execute=False)
+    group.put("GoOn", Execute=False)
     group.cycle()
     group.start("GoOn")
     assert group.error("GoOn") == ERRORS["NOT_INTERRUPTED"]
@@ -315,7 +323,7 @@ def test_an_axis_without_power_when_a_block_becomes_the_head(group: AxisGroup) -
     group.start("Wait", WaitTime=1.0, BufferMode=0)
     give(group, "Buffered", "Buffered")
     group.after(0.5)
-    group.set("Power", bRegulatorOn=False)
+    group.put("Power", bRegulatorOn=False)
     group.after(0.4)
     assert group.state == "GroupMoving"
     group.after(0.2)

@@ -1,15 +1,22 @@
-"""Arcs, direct moves, rounded corners, products and impossible inputs of axis groups, against closed forms."""
+"""Arcs, direct moves, rounded corners, products and impossible inputs of axis groups against closed forms."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 from tests.libraries.axis_group import CYCLE, ERRORS, AxisGroup, axis_group
 
-DYNAMICS = {"Velocity": 50.0, "Acceleration": 500.0, "Deceleration": 500.0, "Jerk": 0.0, "CoordSystem": 0}
+DYNAMICS: dict[str, Any] = {
+    "Velocity": 50.0,
+    "Acceleration": 500.0,
+    "Deceleration": 500.0,
+    "Jerk": 0.0,
+    "CoordSystem": 0,
+}
 BORDER, CENTER, RADIUS = 0, 1, 2
 
 
@@ -76,7 +83,7 @@ def test_direct_moves_are_as_fast_as_the_slowest_axis(group: AxisGroup) -> None:
     """The axis with the longest way by its velocity decides; all are on one line and end together."""
     group.start("Disable")
     for axis, speed in (("X", 10.0), ("Y", 100.0), ("Z", 50.0)):
-        group.set(axis, fSWMaxVelocity=speed, fSWMaxAcceleration=1e3, fSWMaxDeceleration=1e3, fSWMaxJerk=0.0)
+        group.put(axis, fSWMaxVelocity=speed, fSWMaxAcceleration=1e3, fSWMaxDeceleration=1e3, fSWMaxJerk=0.0)
     group.start("Enable")
     group.give("Direct1", Position=(20, 30, -40), CoordSystem=0)
     trace = _run(group, "Direct1")
@@ -93,7 +100,7 @@ def test_a_rounded_corner(group: AxisGroup, mode: int, parameter: float, reach: 
     """Velocities of the axes are continuous, the path leaves both lines at the distance, symmetrically."""
     group.give("Linear1", Position=(100, 0, 0), **DYNAMICS)
     group.give(
-        *["Linear2"],
+        "Linear2",
         Position=(100, 100, 0),
         **DYNAMICS,
         BufferMode=2,
@@ -126,7 +133,7 @@ def test_a_product_in_the_machine(group: AxisGroup) -> None:
     group.give("Relative1", Distance=(5, 0, 0), **{**DYNAMICS, "CoordSystem": 3})
     _run(group, "Relative1")
     assert group.position == pytest.approx((8, 26, 33), abs=1e-12)
-    group.set("SetValue", Enable=True, CoordSystem=3)
+    group.put("SetValue", Enable=True, CoordSystem=3)
     group.cycle()
     place = [group.number(f"SetValue.Position.a[{index}]") for index in range(3)]
     assert place == pytest.approx((6, 2, 3), abs=1e-12)
@@ -160,7 +167,7 @@ def test_impossible_values_are_refused(group: AxisGroup, pin: str, value: float)
         *[("Circular1", {"PathChoice": value}) for value in (-1, 2)],
     ],
 )
-def test_impossible_modes_are_refused(group: AxisGroup, block: str, inputs: dict[str, object]) -> None:
+def test_impossible_modes_are_refused(group: AxisGroup, block: str, inputs: dict[str, Any]) -> None:
     """AG-52, AG-58."""
     group.start(block, **{**DYNAMICS, **inputs})
     assert group.outputs(block) == {"Error"}
@@ -170,7 +177,7 @@ def test_impossible_modes_are_refused(group: AxisGroup, block: str, inputs: dict
 
 def test_software_limits_of_targets_and_arcs(group: AxisGroup) -> None:
     """AG-52: also where an arc turns beyond a limit."""
-    group.set("Y", bSWLimitEnable=True, fSWLimitNegative=-10.0, fSWLimitPositive=40.0)
+    group.put("Y", bSWLimitEnable=True, fSWLimitNegative=-10.0, fSWLimitPositive=40.0)
     group.start("Linear1", Position=(0, 41, 0), **DYNAMICS)
     assert group.error("Linear1") == ERRORS["LIMITS"]
     group.start("Circular1", CircMode=BORDER, AuxPoint=(50, 50, 0), EndPoint=(100, 0, 0), **DYNAMICS)
@@ -182,7 +189,7 @@ def test_inputs_are_latched(group: AxisGroup) -> None:
     """AG-35, AG-36, AG-66: changes while it is busy, and further edges, have no effect."""
     group.start("Linear1", Position=(100, 0, 0), **DYNAMICS)
     group.start("Linear2", Position=(200, 0, 0), **DYNAMICS, BufferMode=1)
-    group.set("Linear2", Velocity=5.0, Position=(0, 0, 0))
+    group.put("Linear2", Velocity=5.0, Position=(0, 0, 0))
     group.start("Linear2")
     assert group.number("Group.iCommands") == 2
     assert group.until_done("Linear2") == pytest.approx(2 * 2.1, abs=5 * CYCLE)
@@ -191,21 +198,21 @@ def test_inputs_are_latched(group: AxisGroup) -> None:
 
 def test_the_override_keeps_the_path(group: AxisGroup) -> None:
     """Half the velocity, none, and all again: the end is exact, the line is kept."""
-    group.set("Override", Enable=True)
+    group.put("Override", Enable=True)
     group.give("Linear1", Position=(60, 30, 0), **DYNAMICS)
     group.after(0.3)
-    group.set("Override", VelFactor=0.5)
+    group.put("Override", VelFactor=0.5)
     group.after(0.3)
     assert group.path_velocity == pytest.approx(25)
-    group.set("Override", VelFactor=0.0)
+    group.put("Override", VelFactor=0.0)
     group.after(0.3)
     assert group.path_velocity == 0
     assert group.outputs("Linear1") == {"Busy", "Active"}
-    group.set("Override", VelFactor=1.0)
+    group.put("Override", VelFactor=1.0)
     trace = _run(group, "Linear1")
     assert np.abs(trace[:, 0] - 2 * trace[:, 1]).max() < 1e-9
     assert trace[-1, :3] == pytest.approx((60, 30, 0), abs=1e-12)
     for value in (-0.1, 1.1, float("nan")):
-        group.set("Override", VelFactor=value)
+        group.put("Override", VelFactor=value)
         group.cycle()
         assert group.error("Override") == ERRORS["OVERRIDE"]

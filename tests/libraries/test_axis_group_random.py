@@ -1,11 +1,12 @@
 """Random commands for an axis group against the formulas of the specification, and what always holds.
 
-The path is continuous, its velocity, acceleration and jerk stay within their limits, all axes are on one straight line
-between two targets, commands end in their order, and the end is exact.
+The path is continuous, its velocity, acceleration and jerk stay within their limits, all axes are on one
+straight line between two targets, commands end in their order, and the end is exact.
 """
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -43,7 +44,7 @@ def _trace(group: AxisGroup, cycles: int, rows: list[list[float]]) -> None:
 def _largest_distance(points: np.ndarray, corners: list[np.ndarray]) -> float:
     """From the polyline, of the point that is farthest from it."""
     nearest = np.full(len(points), np.inf)
-    for start, end in zip(corners, corners[1:], strict=False):
+    for start, end in itertools.pairwise(corners):
         way = end - start
         square = float(way @ way)
         share = np.clip((points - start) @ way / square, 0, 1) if square > 0 else np.zeros(len(points))
@@ -56,11 +57,14 @@ def _largest_distance(points: np.ndarray, corners: list[np.ndarray]) -> float:
 def test_commands_that_are_queued_at_once(moves: list[dict[str, Any]]) -> None:
     """AG-30 to AG-38, AG-54, AG-55, AG-57: durations and velocities of the formulas."""
     corners = [np.zeros(3), *[np.array(move["Position"]) for move in moves]]
-    lengths = [float(np.linalg.norm(b - a)) for a, b in zip(corners, corners[1:], strict=False)]
+    lengths = [float(np.linalg.norm(b - a)) for a, b in itertools.pairwise(corners)]
     queue = [
         Move(
             length,
-            *(move[name] for name in ("Velocity", "Acceleration", "Deceleration", "Jerk")),
+            move["Velocity"],
+            move["Acceleration"],
+            move["Deceleration"],
+            move["Jerk"],
             move["BufferMode"],
         )
         for length, move in zip(lengths, moves, strict=True)
@@ -117,12 +121,12 @@ def _free(group: AxisGroup) -> str | None:
 @settings(max_examples=25, deadline=None)
 @given(st.lists(st.tuples(ACTION, st.integers(1, 120)), min_size=1, max_size=12))
 def test_commands_at_any_time(actions: list[tuple[tuple[str, Any], int]]) -> None:
-    """AG-04, AG-14 to AG-19, AG-33, AG-35, AG-39: whatever comes, the group stays on its path and comes to its end."""
+    """AG-14 to AG-19, AG-33, AG-35, AG-39: whatever comes, the group stays on its path, to its end."""
     rows: list[list[float]] = []
     allowed = [0.0]
     stronger = False
     with axis_group() as group:
-        group.set("Override", Enable=True)
+        group.put("Override", Enable=True)
         for (kind, inputs), cycles in actions:
             block = kind
             if kind == "move":
@@ -133,7 +137,7 @@ def test_commands_at_any_time(actions: list[tuple[tuple[str, Any], int]]) -> Non
                 allowed += [inputs["Acceleration"], inputs["Deceleration"]]
                 group.give(block, **inputs, CoordSystem=0)
             elif kind == "override":
-                group.set("Override", VelFactor=inputs)
+                group.put("Override", VelFactor=inputs)
             elif kind == "wait":
                 group.give("Wait", WaitTime=inputs, BufferMode=1)
                 block = "Wait"
@@ -142,15 +146,15 @@ def test_commands_at_any_time(actions: list[tuple[tuple[str, Any], int]]) -> Non
                 group.give(block, **inputs)
             _trace(group, 1, rows)
             if block != "override":
-                group.set(block, Execute=False)
+                group.put(block, Execute=False)
             _trace(group, cycles, rows)
             assert group.state in ("GroupStandby", "GroupMoving", "GroupStopping")
-        group.set("Override", VelFactor=1.0)
+        group.put("Override", VelFactor=1.0)
         for _ in range(3):
             _trace(group, 500, rows)
             group.give("GoOn")
             _trace(group, 1, rows)
-            group.set("GoOn", Execute=False)
+            group.put("GoOn", Execute=False)
         group.until(lambda: group.state == "GroupStandby", 400.0)
         refusals = {ERRORS["WRONG_STATE"], ERRORS["TOO_SHORT"]}
         failed = [block for block in BLOCKS if group.flag(f"{block}.Error")]

@@ -1,17 +1,24 @@
-"""The states of an axis group: every event in every state, as the table of the specification has it (axis_group 2)."""
+"""The states of an axis group: every event in every state, as the table has it (axis_group 2)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 from tests.libraries.axis_group import AXES, ERRORS, STATES, AxisGroup, axis_group
 
-DYNAMICS = {"Velocity": 100.0, "Acceleration": 200.0, "Deceleration": 200.0, "Jerk": 2000.0, "CoordSystem": 0}
-FAR = {"Position": (300.0, 200.0, 100.0), **DYNAMICS}
-BRAKE = {"Deceleration": 200.0, "Jerk": 2000.0}
-POSITION = {"Position": (1.0, 2.0, 3.0), "CoordSystem": 0}
+DYNAMICS: dict[str, Any] = {
+    "Velocity": 100.0,
+    "Acceleration": 200.0,
+    "Deceleration": 200.0,
+    "Jerk": 2000.0,
+    "CoordSystem": 0,
+}
+FAR: dict[str, Any] = {"Position": (300.0, 200.0, 100.0), **DYNAMICS}
+BRAKE: dict[str, Any] = {"Deceleration": 200.0, "Jerk": 2000.0}
+POSITION: dict[str, Any] = {"Position": (1.0, 2.0, 3.0), "CoordSystem": 0}
 
 
 @pytest.fixture
@@ -31,18 +38,18 @@ def bring(group: AxisGroup, state: str) -> None:
         group.give("Stop2", **BRAKE)
     if state == "GroupErrorStop":
         group.write("Y.bRegulatorOn", False)
-        group.set("Power", bRegulatorOn=False)
+        group.put("Power", bRegulatorOn=False)
     if state == "GroupHoming":
         group.give("Home", **POSITION)
     group.cycle()
     if state == "GroupErrorStop":
         group.cycle()
-        group.set("Power", bRegulatorOn=True)
+        group.put("Power", bRegulatorOn=True)
         group.after(2.0)
     assert group.state == state
 
 
-EVENTS: dict[str, tuple[str, dict[str, object]]] = {
+EVENTS: dict[str, tuple[str, dict[str, Any]]] = {
     "enable": ("Enable", {}),
     "disable": ("Disable", {}),
     "linear": ("Linear1", FAR),
@@ -96,7 +103,7 @@ LEADS: dict[tuple[str, str], str] = {
     ("GroupErrorStop", "disable"): "GroupDisabled",
     ("GroupErrorStop", "reset"): "GroupErrorStop",
 }
-"""Where events lead to that a state takes; every other combination is an error of the block and changes nothing."""
+"""Where events lead to that a state takes; all others are errors of the block and change nothing."""
 
 
 @pytest.mark.parametrize("event", EVENTS)
@@ -109,7 +116,9 @@ def test_every_event_in_every_state(group: AxisGroup, state: str, event: str) ->
     block, inputs = EVENTS[event]
     group.give(block, **inputs)
     group.cycle()
-    homed = {"GroupStandby"} if state == "GroupHoming" else set()  # a virtual axis has its reference at once
+    homed = (
+        {"GroupStandby"} if state == "GroupHoming" else set[str]()
+    )  # a virtual axis has its reference at once
     if (state, event) in LEADS:
         assert group.state in {LEADS[state, event]} | homed
         group.cycle()
@@ -170,7 +179,7 @@ def test_a_single_axis_may_move_in_standby(group: AxisGroup) -> None:
 
 
 def _stops_on_its_path(group: AxisGroup, cause: Callable[[], None], reason: int, failed: int) -> None:
-    """The axes brake on the straight line of the group, together, and are in errorstop; a reset brings the group back."""
+    """The axes brake on the line of the group, together, and are in errorstop; a reset brings the group back."""
     bring(group, "GroupStandby")
     group.give("Linear1", **FAR)
     group.give("Linear2", **FAR, BufferMode=2)
@@ -193,18 +202,18 @@ def _stops_on_its_path(group: AxisGroup, cause: Callable[[], None], reason: int,
     assert group.outputs("Linear1") == {"Error"}
     assert group.error("Linear1") == reason
     assert group.outputs("Linear2") == {"CommandAborted"}
-    group.set("GroupError", Enable=True)
+    group.put("GroupError", Enable=True)
     group.cycle()
     assert int(group.number("GroupError.Axis")) == failed
     assert [group.text(f"{axis}.nAxisState") for axis in AXES] == ["errorstop"] * 3
     for block in ("Single", "Linear1", "Linear2"):
-        group.set(block, Execute=False)
+        group.put(block, Execute=False)
     group.give("Reset")
     group.cycle(5)
     assert group.outputs("Reset") == {"Done"}
     assert group.state == "GroupStandby"
     assert [group.text(f"{axis}.nAxisState") for axis in AXES] == ["standstill"] * 3
-    group.set("Z", fMaxVelocity=1e5)
+    group.put("Z", fMaxVelocity=1e5)
     group.start("Linear1", **FAR)
     group.until(lambda: group.done("Linear1"), 20.0)
     assert group.position == pytest.approx(FAR["Position"], abs=1e-12)
@@ -213,7 +222,7 @@ def _stops_on_its_path(group: AxisGroup, cause: Callable[[], None], reason: int,
 def test_a_single_axis_command_stops_the_moving_group(group: AxisGroup) -> None:
     """AG-25."""
     for axis in AXES:
-        group.set(axis, fSWMaxDeceleration=500.0)
+        group.put(axis, fSWMaxDeceleration=500.0)
     inputs = {"Position": 5.0, "Velocity": 10.0, "Acceleration": 100.0, "Deceleration": 100.0}
     _stops_on_its_path(group, lambda: group.give("Single", **inputs), ERRORS["SINGLE_AXIS"], 1)
     assert group.flag("Single.Execute") is False
@@ -230,8 +239,8 @@ def test_a_buffered_single_axis_command_stops_it_too(group: AxisGroup) -> None:
 def test_a_fault_of_one_axis_stops_the_group_on_its_path(group: AxisGroup) -> None:
     """AG-04, AG-22: beyond what the drive can, an error of the axis alone."""
     for axis in AXES:
-        group.set(axis, fSWMaxDeceleration=500.0)
-    _stops_on_its_path(group, lambda: group.set("Z", fMaxVelocity=1.0), TOO_FAST, 2)
+        group.put(axis, fSWMaxDeceleration=500.0)
+    _stops_on_its_path(group, lambda: group.put("Z", fMaxVelocity=1.0), TOO_FAST, 2)
 
 
 def test_axes_of_a_group(group: AxisGroup) -> None:
@@ -240,15 +249,15 @@ def test_axes_of_a_group(group: AxisGroup) -> None:
     group.start("AddElsewhere")
     assert int(group.number("AddElsewhere.ErrorID")) == ERRORS["IN_GROUP"]
     for number in (1, 7, 65535):
-        group.set("AddOther", IdentInGroup=number)
+        group.put("AddOther", IdentInGroup=number)
         group.start("AddOther")
         assert int(group.number("AddOther.ErrorID")) == ERRORS["INDEX"]
     group.start("Remove", IdentInGroup=2)
     group.cycle()
     assert group.number("Group.iAxes") == 2
-    group.set("AddOther", IdentInGroup=0)
+    group.put("AddOther", IdentInGroup=0)
     group.start("AddOther")
-    group.set("Configuration", Enable=True, IdentInGroup=2)
+    group.put("Configuration", Enable=True, IdentInGroup=2)
     group.cycle()
     assert group.flag("Configuration.Valid")
     assert group.number("Group.iAxes") == 3
@@ -270,14 +279,14 @@ def test_exactly_one_state_is_told() -> None:
         if state == "GroupHoming":
             continue
         with axis_group(enabled=False) as fresh:
-            fresh.set("Status", Enable=True)
+            fresh.put("Status", Enable=True)
             bring(fresh, state)
             fresh.cycle()
             assert {name for name in STATES if fresh.flag(f"Status.{name}")} == {state}
 
 
 def test_axes_without_power_are_not_moved(group: AxisGroup) -> None:
-    """AG-10, AG-50 (V-1): the group may be enabled without power, its movements are errors of their blocks."""
+    """AG-10, AG-50 (V-1): a group is enabled without power, but its movements are errors of their blocks."""
     group.power(on=False)
     group.start("Enable")
     assert group.outputs("Enable") == {"Done"}
