@@ -1,4 +1,4 @@
-"""Three virtual axes in a group with instances of the blocks of SM3_AxisGroup, moved by what a test gives them."""
+"""Three virtual axes in a group with blocks of SM3_AxisGroup, moved by what a test gives them."""
 
 from __future__ import annotations
 

@@ -179,7 +179,7 @@ def test_a_single_axis_may_move_in_standby(group: AxisGroup) -> None:
 
 
 def _stops_on_its_path(group: AxisGroup, cause: Callable[[], None], reason: int, failed: int) -> None:
-    """The axes brake on the line of the group, together, and are in errorstop; a reset brings the group back."""
+    """The axes brake on the line of the group and are in errorstop; a reset brings the group back."""
     bring(group, "GroupStandby")
     group.give("Linear1", **FAR)
     group.give("Linear2", **FAR, BufferMode=2)

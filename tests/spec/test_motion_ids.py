@@ -2,9 +2,9 @@
 
 `data/motion_ids.csv` lists the rules and examples of `motion_semantics`, `cam`, `ax3000` and `axis_group`,
 and those of `devices` that are about SoftMotion drives (AXIS and devices EX-05 to devices EX-08). `shown_by`
-names the tests that show a rule; where it is empty, a test names the rule itself, which will do only for a number
-that no other document has. A front-end test is named by its file, which names the rule. `convention` marks
-advice to programmers. `open: ...` says what is missing.
+names the tests that show a rule; where it is empty, a test names the rule itself, which will do only for a
+number that no other document has. A front-end test is named by its file, which names the rule. `convention`
+marks advice to programmers. `open: ...` says what is missing.
 """
 
 from __future__ import annotations
