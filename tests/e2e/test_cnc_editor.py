@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -56,12 +54,6 @@ def program(page: Page, server: Server) -> tuple[str, str]:
     return path, str(item["id"])
 
 
-def picture(page: Page, name: str) -> None:
-    """For the eye, where a folder is named."""
-    if folder := os.environ.get("CNC_PICTURES"):
-        page.screenshot(path=Path(folder) / f"{name}.png")
-
-
 def test_text_and_table_are_one_program(page: Page, server: Server, program: tuple[str, str]) -> None:
     """Typing shows messages and rows; a cell changes the text; undo takes it back."""
     path, object_id = program
@@ -80,14 +72,13 @@ def test_text_and_table_are_one_program(page: Page, server: Server, program: tup
     page.keyboard.press("End")
     page.keyboard.press("Enter")
     page.keyboard.insert_text("N30 G77 X1")
-    expect(editor.get_by_role("status")).to_contain_text("1 × error")
+    expect(editor.get_by_role("status")).to_contain_text("Errors: 1")
     expect(editor.locator(".squiggly-error")).to_be_visible()
-    picture(page, "message")
     page.keyboard.press("End")
     for _ in range(len("77 X1")):
         page.keyboard.press("Backspace")
     page.keyboard.insert_text("1 X7")
-    expect(editor.get_by_role("status")).to_contain_text("0 × error")
+    expect(editor.get_by_role("status")).to_contain_text("Errors: 0")
     expect(cell(page, 3, 0)).to_have_text("G1")
     expect(cell(page, 3, 2)).to_have_text("7")
 
@@ -114,12 +105,14 @@ def test_text_and_table_are_one_program(page: Page, server: Server, program: tup
         page.get_by_role("menuitem", name="Renumber Program").click()
     expect(lines(page).nth(0)).to_have_text(re.compile("N0.G1.X50"))
     assert [line.split()[0] for line in stored().splitlines()] == ["N0", "N10", "N20"]
-    picture(page, "both")
 
 
-def test_hovers_and_pictures(page: Page, program: tuple[str, str]) -> None:
-    """CNC-30: a word says what it means in its block, and what is in force there."""
-    lines(page).nth(2).get_by_text("R50").hover()
-    expect(page.locator(".monaco-hover-content")).to_contain_text("Radius; the arc is the smaller one")
-    expect(page.locator(".monaco-hover-content")).to_contain_text("G1 G90 G99 F100")
-    picture(page, "hover")
+def test_a_word_is_explained_and_the_properties_open(page: Page, program: tuple[str, str]) -> None:
+    """CNC-05, CNC-30: a word says what it means in its block, and what is in force there."""
+    lines(page).nth(2).get_by_text("X100").hover()
+    told = page.locator(".monaco-hover-content", has_text="Target position of axis X")
+    expect(told).to_contain_text("G1 G90 G99 F100")
+    page.mouse.move(5, 5)
+    editor_of(page).get_by_role("button", name="CNC", exact=True).click()
+    page.get_by_role("menuitem", name="CNC Properties").click()
+    expect(page.get_by_role("dialog")).to_be_visible()

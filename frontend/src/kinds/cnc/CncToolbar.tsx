@@ -8,6 +8,7 @@ import { CNC_ACTS } from './acts';
 import styles from './Cnc.module.css';
 import type { CncDocument } from './cncDocument';
 import type { CncProgramData } from './properties';
+import { rowCount } from './table';
 import { useProgramVersion } from './useProgramVersion';
 
 export type CncView = 'text' | 'both' | 'table';
@@ -47,7 +48,11 @@ export function CncToolbar({ acts, view, onView, program, data }: CncToolbarProp
       </div>
       <span className={styles.facts}>
         <span>{t(`cnc.mode.${data.compile_mode}`)}</span>
-        <span>{t('cnc.blocks', { count: program.program.count })}</span>
+        <span>
+          {t('cnc.blocks', {
+            count: rowCount(program.program.count, program.program.block(program.program.count - 1).text),
+          })}
+        </span>
         <span role="status" data-tone={errors > 0 ? 'error' : warnings > 0 ? 'warn' : undefined}>
           {program.program.settled ? t('cnc.found', { errors, warnings }) : t('cnc.checking')}
         </span>
