@@ -94,7 +94,8 @@ export class TextDocument {
     this.steps = { declaration: steps('declaration'), implementation: steps('implementation') };
     const model = (part: Part) => {
       const uri = monaco.Uri.parse(partUri(projectId, object.id, part));
-      const language = part === 'implementation' ? (kindOf(object.kind)?.textLanguage ?? monacoLanguage(this.language)) : IEC_TEXT;
+      const language =
+        part === 'implementation' ? (kindOf(object.kind)?.textLanguage ?? monacoLanguage(this.language)) : IEC_TEXT;
       const made = monaco.editor.getModel(uri) ?? monaco.editor.createModel('', language, uri);
       this.fill(made, part, state.text[part]);
       made.updateOptions({

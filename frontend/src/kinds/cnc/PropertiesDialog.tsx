@@ -58,7 +58,7 @@ export function PropertiesDialog({ projectId, objectId, name, close }: Propertie
   return (
     <FormDialog
       title={t('cnc.propertiesOf', { name })}
-      width={620}
+      width={800}
       action={t('properties.apply')}
       disabledReason={disabled ? reasonText(allowed) : (faults.find((fault) => fault !== null) ?? null)}
       onClose={close}
