@@ -14,7 +14,7 @@ import { Panel } from '@/ui/Panel';
 import { Table } from '@/ui/Table';
 import type { Column } from '@/ui/table';
 import styles from './CallStackPanel.module.css';
-import { exceptionPlace, exceptionText, exceptionTitle, framePath, jumpToFrame } from './exception';
+import { exceptionPlace, exceptionText, exceptionTitle, framePath, isFaultCycle, jumpToFrame } from './exception';
 import { waitsForStart } from './runtimeText';
 import { useActiveSession } from './session';
 
@@ -32,10 +32,22 @@ export default function CallStackPanel() {
       </Empty>
     );
   const exception = session.runtime?.exception;
+  const { past } = session;
   if (!exception && looked?.debugged && looked.debugged.state.halted.length > 0)
-    return <HaltedStack runtimeId={looked.runtimeId} debugged={looked.debugged} />;
+    // A cycle in which a task stands has not ended, so it is none of the recorded ones.
+    return past ? (
+      <NoPastStack cycle={past.cycle} />
+    ) : (
+      <HaltedStack runtimeId={looked.runtimeId} debugged={looked.debugged} />
+    );
   if (!exception) return <Empty icon={Layers} title={t('exception.none')} text={t('exception.noneText')} />;
-  return <Report exception={exception} runtimeId={session.runtimeId} past={session.past} />;
+  return <Report exception={exception} runtimeId={session.runtimeId} past={past} />;
+}
+
+/** Instead of the calls of another cycle than the one whose values are shown. */
+function NoPastStack({ cycle }: { cycle: number }) {
+  const t = useText();
+  return <Empty icon={Layers} title={t('exception.noPastStack', { cycle })} text={t('exception.noPastStackText')} />;
 }
 
 interface Line {
@@ -172,14 +184,16 @@ function Report({ exception, runtimeId, past }: ReportProps) {
       <div className={styles.tables}>
         <Table
           label={t('panel.callStack')}
-          items={lines}
+          items={past && !isFaultCycle(past) ? [] : lines}
           columns={columns}
           keyOf={(line) => line.key}
           selected={selected}
           onSelect={(line) => setSelected(line?.key ?? null)}
           onOpen={({ frame }) => jumpToFrame(frame)}
           onShow={({ frame }) => jumpToFrame(frame, false)}
-          empty={<Empty title={t('exception.noStack')} />}
+          empty={
+            past && lines.length > 0 ? <NoPastStack cycle={past.cycle} /> : <Empty title={t('exception.noStack')} />
+          }
         />
         <Table
           label={t('exception.values')}

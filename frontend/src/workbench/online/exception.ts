@@ -1,4 +1,5 @@
 /** The exception of an application: shown once when it happens, and the ways to its place. */
+import type { PastMoment } from '../onlineSession';
 import { keys, queryClient } from '@/api/queries';
 import type { CallFrame, ObjectSummary, RuntimeException } from '@/api/types';
 import { t, type TextKey } from '@/i18n';
@@ -98,3 +99,6 @@ export function followExceptions(): () => void {
     }
   });
 }
+
+/** Whether the application failed in this past cycle: the calls that led there are those of it alone. */
+export const isFaultCycle = ({ fault, before }: PastMoment) => fault && before === 0;
