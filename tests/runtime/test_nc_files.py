@@ -160,7 +160,7 @@ def defaults(program: Reader) -> None:
 
 
 def test_variables(tmp_path: Path) -> None:
-    """Spec cnc_runtime EX-04, cnc EX-15, CNCR-31, VAR-03: by a list; unknown ones are an error of the file."""
+    """Spec cnc_runtime EX-04, cnc EX-15, CNCR-31, VAR-03: by a list; an unknown one is an error."""
     text = "N0 G$g_byCommand$ X$g_rTestX$"
     with reader(tmp_path) as program:
         defaults(program)
