@@ -5,7 +5,7 @@ import { clear, reads, show } from '../../../tests/page';
 import type { PastMoment } from '../onlineSession';
 import CallStackPanel from './CallStackPanel';
 
-const shown = vi.hoisted(() => ({ session: {} as object, looked: null as object | null }));
+const shown = vi.hoisted(() => ({ session: {}, looked: null as object | null }));
 vi.mock('./session', () => ({ useActiveSession: () => shown.session }));
 vi.mock('../debugger/useDebugged', () => ({ useDebugged: () => shown.looked }));
 vi.mock('../debugger/HaltedStack', () => ({ HaltedStack: () => <p>halted stack</p> }));
