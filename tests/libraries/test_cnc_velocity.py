@@ -21,6 +21,8 @@ OBJECTS = st.builds(
     end=st.sampled_from([1e9, 1e9, 1e9, 1e9, 12.0, 0.0]),
 )
 PATHS = st.lists(OBJECTS, min_size=1, max_size=25)
+LONG = [Object(7.047554703425113, 46.46446822197238, 170.99514514806336, 170.99514514806336)] * 8
+"""A path in parts that is looked at in several pieces, with a velocity that rounding does not meet."""
 MODES = ("TRAPEZOID", "SIGMOID", "SIGMOID_LIMIT", "QUADRATIC", "QUADRATIC_SMOOTH")
 JERK = 2000.0
 CYCLE = 0.01
@@ -94,6 +96,7 @@ def check_limits(
     PATHS, st.sampled_from([1.0, 1.0, 0.3, 2.0]), st.sampled_from(["TRAPEZOID", "SIGMOID", "SIGMOID_LIMIT"])
 )
 @example([Object(100.0), Object(1.0)], 0.5, "TRAPEZOID")
+@example(LONG, 1.0, "SIGMOID")
 @example([Object(30.0, 50.0), Object(0.01, 20.0), Object(3.0, 5.0)], 0.3, "SIGMOID_LIMIT")
 def test_random_paths_are_the_shortest(path: list[Object], override: float, mode: str) -> None:
     """Spec 13: total time within a cycle of the analytic value, changes of velocity within limits."""
@@ -109,6 +112,7 @@ def test_random_paths_are_the_shortest(path: list[Object], override: float, mode
 
 @settings(max_examples=25, deadline=None)
 @given(PATHS, st.sampled_from([1.0, 0.3, 2.0]), st.sampled_from(["QUADRATIC", "QUADRATIC_SMOOTH"]))
+@example(LONG, 1.0, "QUADRATIC")
 def test_random_paths_with_limited_jerk(path: list[Object], override: float, mode: str) -> None:
     """Spec 13: the velocity keeps all limits, its second difference that of the jerk."""
     fastest = duration(path, override)
