@@ -56,7 +56,7 @@ def test_arcs(
     centre: tuple[float, ...],
     angle: float,
 ) -> None:
-    """AG-14: all points are on the circle; the length is that of radius and angle."""
+    """All points are on the circle; the length is that of radius and angle."""
     group.give("Circular1", CircMode=mode, AuxPoint=aux, EndPoint=end, PathChoice=choice, **DYNAMICS)
     trace = _run(group, "Circular1")
     assert np.abs(np.linalg.norm(trace[:, :3] - centre, axis=1) - 50).max() < 1e-9
