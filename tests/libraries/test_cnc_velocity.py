@@ -23,6 +23,14 @@ OBJECTS = st.builds(
 PATHS = st.lists(OBJECTS, min_size=1, max_size=25)
 LONG = [Object(7.047554703425113, 46.46446822197238, 170.99514514806336, 170.99514514806336)] * 8
 """A path in parts that is looked at in several pieces, with a velocity that rounding does not meet."""
+LOW_END = [
+    Object(2.0, 5.0, 400.0, 60.0),
+    Object(0.3373219150147494, 5.0, 400.0, 100.0, 12.0),
+    Object(0.18777191184155126, 20.0, 400.0, 60.0, 12.0),
+    Object(0.09994025036464889, 20.0, 100.0, 60.0, 12.0),
+    Object(0.03484567578442897, 20.0, 100.0, 100.0, 12.0),
+]
+"""Short objects at the end: with limited jerk the way to 0 is shorter than that to a low velocity."""
 MODES = ("TRAPEZOID", "SIGMOID", "SIGMOID_LIMIT", "QUADRATIC", "QUADRATIC_SMOOTH")
 JERK = 2000.0
 CYCLE = 0.01
@@ -113,6 +121,7 @@ def test_random_paths_are_the_shortest(path: list[Object], override: float, mode
 @settings(max_examples=25, deadline=None)
 @given(PATHS, st.sampled_from([1.0, 0.3, 2.0]), st.sampled_from(["QUADRATIC", "QUADRATIC_SMOOTH"]))
 @example(LONG, 1.0, "QUADRATIC")
+@example(LOW_END, 1.0, "QUADRATIC")
 def test_random_paths_with_limited_jerk(path: list[Object], override: float, mode: str) -> None:
     """Spec 13: the velocity keeps all limits, its second difference that of the jerk."""
     fastest = duration(path, override)
