@@ -348,6 +348,24 @@ def test_dynamics_of_a_spline() -> None:
     assert [spline.member(name) for name in ("dVel", "dAccel", "dDecel")] == [30, 7, 6]
 
 
+@pytest.mark.parametrize("function", [False, True])
+@pytest.mark.parametrize(("end", "expected"), [(100, [50, 50, 50]), (7, [50, 7, 50]), (0, [50, 0, 50])])
+@pytest.mark.parametrize("name", ["SMC_SmoothPath", "SMC_RoundPath"])
+def test_end_velocities_in_a_corner(name: str, end: float, expected: list[float], function: bool) -> None:
+    """Spec CNCR-112: what is prescribed for the corner holds behind it.
+
+    A stop at an M function is left to SMC_CheckVelocities: it may be acknowledged in advance (CNCR-152).
+    """
+    mark = SMOOTH if name == "SMC_SmoothPath" else ROUND
+    objects = polyline((0, 0), (10, 0), (10, 10), marks={0: mark}, dToolRadius=2)
+    objects[0].members |= {"dVelEnd": end}
+    objects[1].members |= {"dVel": 50.0, "dVelEnd": 50.0}
+    if function:
+        objects.insert(1, Geo(MCOMMAND, position(10, 0), position(10, 0), {"iHelpID[0]": 7}))
+    found = [geo for geo in through(objects, Block(name)).objects if geo.kind != MCOMMAND]
+    assert [geo.member("dVelEnd") for geo in found] == expected
+
+
 @pytest.mark.parametrize("kind", [LINPOS, LIN])
 def test_positioning_is_never_cut(kind: int) -> None:
     """Spec CNCR-80: a corner at G0 stays."""
