@@ -148,6 +148,24 @@ def test_a_positioning_in_front_is_redirected() -> None:
     assert shape(through(objects, block)) == [(LINPOS, (0, 0), (10, 2)), (LIN, (10, 2), (20, 2))]
 
 
+@pytest.mark.parametrize(
+    ("side", "expected"),
+    [
+        (LEFT, [(LIN, (8, 0), (8, 20)), (CLW, (8, 20), (10, 22)), (LINPOS, (10, 22), (30, 22))]),
+        (RIGHT, [(LIN, (12, 0), (12, 18)), (LINPOS, (12, 18), (30, 18))]),
+    ],
+)
+def test_a_positioning_between_corrected_objects_is_corrected(side: int, expected: list[object]) -> None:
+    """Spec CNCR-61, CNCR-64, CNCR-65: G0 between G41 and G40; the arc in front of it goes at the feed."""
+    objects = polyline(*CORNERS, marks={0: side}, dToolRadius=2)
+    objects[2].kind = LINPOS
+    objects[2].members |= {"dVel": 1000.0}
+    result = through(objects, Block("SMC_ToolCorr"))
+    assert shape(result)[1 : 1 + len(expected)] == expected
+    assert [geo.kind for geo in result.objects].count(LINPOS) == 1
+    assert all(geo.member("dVel") == (1000 if geo.kind == LINPOS else 100) for geo in result.objects)
+
+
 def test_an_arc_smaller_than_the_tool_disappears() -> None:
     """Spec CNCR-63: its neighbours are joined where they meet."""
     objects = [
@@ -160,6 +178,16 @@ def test_an_arc_smaller_than_the_tool_disappears() -> None:
         (LIN, (0, 3), (19, 3)),
         (LIN, (19, 3), (19, 30)),
     ]
+
+
+@pytest.mark.parametrize(("end", "expected"), [(0, 0), (7, 7), (20, 100)])
+def test_an_arc_that_disappears_leaves_its_end_velocity(end: float, expected: float) -> None:
+    """Spec CNCR-112: what an earlier block has prescribed holds; its own velocity prescribes nothing."""
+    objects = polyline((-10, 0), (0, 0), (20, 0), marks={0: LEFT}, dToolRadius=3)
+    objects.append(arc((20, 2), 2, 270, -90, dToolRadius=3, dVel=20, dVelEnd=end))
+    objects += polyline((22, 2), (22, 30), dToolRadius=3)
+    found = through(objects, Block("SMC_ToolCorr")).objects
+    assert [geo.member("dVelEnd") for geo in found] == [100, expected, 100]
 
 
 @pytest.mark.parametrize("plane", [((1, 0, 0), (0, 1, 0)), ((0, 0, 1), (1, 0, 0)), ((0, 1, 0), (0, 0, 1))])

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.libraries.cnc_chain import LARGE, Block, Result, gaps, length_of, through, turn
-from tests.libraries.cnc_paths import CCLW, CLW, LIN, MCOMMAND, SPLINE, Geo, line, path, position
+from tests.libraries.cnc_paths import CCLW, CLW, LIN, LINPOS, MCOMMAND, SPLINE, Geo, line, path, position
 
 SETTINGS = settings(max_examples=12, deadline=None)
 BLOCKS = {
@@ -203,17 +203,19 @@ def same_circle(first: Geo, second: Geo) -> bool:
 @pytest.mark.slow
 @pytest.mark.parametrize("side", [2, 4])
 @SETTINGS
-@given(objects=paths(marks=0), radius=st.floats(0.5, 3))
+@given(objects=paths(marks=0), radius=st.floats(0.5, 3), positionings=st.sets(st.integers(0, 6)))
 def test_corrected_points_have_the_distance_of_the_radius(
-    side: int, objects: list[Geo], radius: float
+    side: int, objects: list[Geo], radius: float, positionings: set[int]
 ) -> None:
     """Spec CNCR-61: each point of a corrected object lies beside an object of the program by the radius.
 
     Ellipses within 1E-5 of the radius; only straight joints, where nothing meets, may lie elsewhere.
     """
     moving = [geo for geo in objects if geo.kind != MCOMMAND]
-    for geo in moving:
+    for n, geo in enumerate(moving):
         geo.members["dToolRadius"] = radius
+        if geo.kind == LIN and n in positionings:
+            geo.kind = LINPOS
     lead = line(position(-20, 0), position(0, 0), byInternMark=side, dToolRadius=radius)
     lead.end[2:] = lead.start[2:] = moving[0].start[2:]
     found = through([lead, *moving], Block("SMC_ToolCorr")).objects[1:]
@@ -247,13 +249,21 @@ def beside(moving: list[Geo], place: np.ndarray, radius: float, distances: np.nd
 
 
 @SETTINGS
-@given(st.lists(st.tuples(st.floats(10, 80), st.floats(20, 60)), min_size=3, max_size=5), st.floats(0.5, 5))
-def test_outside_of_a_convex_path(corners: list[tuple[float, float]], radius: float) -> None:
+@given(
+    st.lists(st.tuples(st.floats(10, 80), st.floats(20, 60)), min_size=3, max_size=5),
+    st.floats(0.5, 5),
+    st.sets(st.integers(0, 5)),
+)
+def test_outside_of_a_convex_path(
+    corners: list[tuple[float, float]], radius: float, positionings: set[int]
+) -> None:
     """Right of a path of lines that turns left the length grows by the angles times the radius."""
     pieces_ = [(0.0, 30.0), *corners]
     if sum(angle for angle, _ in corners) > 300:
         return
     moving = path([tuple(piece) for piece in pieces_], dToolRadius=radius)
+    for n in positionings & set(range(len(moving))):
+        moving[n].kind = LINPOS
     lead = line(position(-20, 0), position(0, 0), byInternMark=4, dToolRadius=radius)
     found = through([lead, *moving], Block("SMC_ToolCorr")).objects[1:]
     whole = sum(length_of(geo) for geo in found)
