@@ -426,6 +426,13 @@ def test_rounding() -> None:
     assert shape(half) == [(LIN, (0, 0), (5, 0)), (CCLW, (5, 0), (10, 5)), (LIN, (10, 5), (10, 10))]
 
 
+def test_a_bend_by_rounding_stays() -> None:
+    """Two lines of one direction whose points are no binary numbers: an arc would have a radius beyond all bounds."""
+    ends = [(8 + k * math.cos(math.radians(1)), k * math.sin(math.radians(1))) for k in (0, 8, 17)]
+    result = through(polyline((0, 0), *ends, marks={0: ROUND}), Block("SMC_RoundPath", "dRadius := 1.5"))
+    assert [geo.kind for geo in result.objects] == [LIN, CCLW, LIN, LIN]
+
+
 @pytest.mark.parametrize(
     ("angle", "radius"),
     [(30, 7.464102), (45, 4.828427), (60, 3.464102), (90, 2), (120, 1.154701), (135, 0.828427)],
