@@ -185,12 +185,23 @@ def _combine_times(op: str, left: Operand, right: Operand) -> Operand:
         return Operand((*left.steps, *right.steps, step), left.type)
     if op == "*" and right.type.kind is Family.TIME and left.type.is_integer:
         left, right = right, left
-    if op in ("*", "/") and left.type.kind is Family.TIME and right.type.is_integer:
-        if op == "/" and right.type.is_signed:
-            raise ExpressionError(f"{left.type_name} is divided by an unsigned integer here")
-        step = Step(_ARITHMETIC[op], kind_of(left.type))
+    if op == "*" and left.type.kind is Family.TIME and right.type.is_integer:
+        step = Step(Op.MULTIPLY, kind_of(left.type))
         return Operand((*left.steps, *right.steps, step), left.type)
+    if op == "/" and left.type.kind is Family.TIME and right.type.is_integer:
+        return _divide_time(left, right)
     raise _impossible(op, left, right)
+
+
+def _divide_time(left: Operand, right: Operand) -> Operand:
+    """A time by an unsigned integer; a literal that is not negative is one."""
+    if isinstance(right.literal, int) and right.literal >= 0:
+        right = constant(right.literal, t.ULINT)
+    if right.type.is_signed:
+        raise ExpressionError(f"{left.type_name} is divided by an unsigned integer here")
+    # in ULINT, as the word of a divisor beyond LINT would be negative in the kind of TIME
+    divisor = converted(right, right.type)
+    return Operand((*left.steps, *divisor.steps, Step(Op.DIVIDE, Kind.ULINT)), left.type)
 
 
 def compare(op: str, left: Operand, right: Operand) -> Operand:
@@ -265,6 +276,8 @@ def numeric_function(name: str, values: Sequence[Operand]) -> Operand:
     if not first.type.is_integer and first.type.kind is not Family.REAL:
         raise ExpressionError(f"{name} needs a number, not {first.type_name}")
     if name == "ABS":
+        if first.literal is not None:
+            return constant(abs(first.literal))
         value = converted(first, first.type)
         return Operand((*value.steps, Step(Op.ABSOLUTE, kind_of(first.type))), first.type)
     type_ = first.type if first.type.kind is Family.REAL else t.LREAL
