@@ -47,6 +47,12 @@ def test_values_of_all_kinds_read_as_json_and_literal(admin: TestClient, url: st
         "TRUE", "-7", "1.5", "T#1s500ms", "'abc'", "On", "[1, 2, 3]", "2", "TRUE",
     ]  # fmt: skip
     assert values[0]["type"] == "BOOL"
+    assert [v["kind"] for v in values] == [
+        "bool", "int", "real", "time", "string", "enum", "array", "int", "bool",
+    ]  # fmt: skip
+    assert [v["size"] for v in values[:4]] == [1, 2, 8, 4]
+    assert [v["base"] for v in values] == [None] * 5 + ["int"] + [None] * 3
+    assert values[5]["enum"]["On"] == 1
 
 
 def test_a_literal_is_in_the_number_format_of_its_variable(admin: TestClient, url: str, plc: FakePlc) -> None:

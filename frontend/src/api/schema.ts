@@ -6637,10 +6637,22 @@ export interface components {
              */
             at: string | null;
             /**
+             * Base
+             * @description int, uint or bits below an enumeration.
+             */
+            base: string | null;
+            /**
              * Before
              * @description What it held before, as IEC literal.
              */
             before: string | null;
+            /**
+             * Enum
+             * @description Numbers of an enumeration by name.
+             */
+            enum: {
+                [key: string]: number;
+            } | null;
             /** Error */
             error: string | null;
             /** Expression */
@@ -6650,6 +6662,11 @@ export interface components {
              * @default false
              */
             forced: boolean;
+            /**
+             * Kind
+             * @description bool bits int uint real time date ... enum string wstring.
+             */
+            kind: string | null;
             /**
              * Literal
              * @description As IEC literal: `TRUE`, `T#1s500ms`, `'abc'`; a number in the format of attribute 'displaymode'.
@@ -6661,6 +6678,11 @@ export interface components {
              * @default
              */
             program: string;
+            /**
+             * Size
+             * @description Bytes of the variable.
+             */
+            size: number | null;
             /**
              * Source
              * @description workbench, api, or wire (a client of the runtime itself); empty where it is not known.
@@ -12689,6 +12711,18 @@ export interface components {
          * @description A value, or why there is none.
          */
         Value: {
+            /**
+             * Base
+             * @description int, uint or bits below an enumeration.
+             */
+            base: string | null;
+            /**
+             * Enum
+             * @description Numbers of an enumeration by name.
+             */
+            enum: {
+                [key: string]: number;
+            } | null;
             /** Error */
             error: string | null;
             /** Expression */
@@ -12699,10 +12733,20 @@ export interface components {
              */
             forced: boolean;
             /**
+             * Kind
+             * @description bool bits int uint real time date ... enum string wstring.
+             */
+            kind: string | null;
+            /**
              * Literal
              * @description As IEC literal: `TRUE`, `T#1s500ms`, `'abc'`; a number in the format of attribute 'displaymode'.
              */
             literal: string | null;
+            /**
+             * Size
+             * @description Bytes of the variable.
+             */
+            size: number | null;
             /** Type */
             type: string | null;
             /** Value */

@@ -258,9 +258,14 @@ async def _read_refs(
 
 
 def _value(link: RuntimeLink, symbols: SymbolMap, expression: str, ref: VarRef, data: bytes) -> Value:
+    is_enum = ref.bit is None and ref.type.kind == "enum"
     return Value(
         expression=expression,
         type=ref.type.name,
+        kind="bool" if ref.bit is not None else ref.type.kind,
+        size=ref.size,
+        enum=dict(ref.type.values) if is_enum else None,
+        base=ref.type.base if is_enum else None,
         value=_json(symbols, ref, data),
         literal=_literal(symbols, ref, data),
         forced=(ref.offset, ref.bit) in link.forced,

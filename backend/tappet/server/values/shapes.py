@@ -27,6 +27,12 @@ class Value(Reply):
 
     expression: str
     type: str | None = None
+    kind: str | None = Field(
+        default=None, description="bool bits int uint real time date ... enum string wstring."
+    )
+    size: int | None = Field(default=None, description="Bytes of the variable.")
+    enum: dict[str, int] | None = Field(default=None, description="Numbers of an enumeration by name.")
+    base: str | None = Field(default=None, description="int, uint or bits below an enumeration.")
     value: Any = None
     literal: str | None = Field(
         default=None,
