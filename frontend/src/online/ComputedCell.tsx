@@ -1,7 +1,7 @@
-import { useCallback, useMemo, useSyncExternalStore } from 'react';
+import { useCallback, useSyncExternalStore } from 'react';
 import { useText } from '@/i18n';
 import { useEditorSettings, type NumberFormat } from '@/text/settings';
-import { operandOf, resultItem, type Computed } from './computed';
+import type { Computed } from './computed/computed';
 import { channelOf } from './connections';
 import { formatShort } from './format';
 import styles from './OnlineTable.module.css';
@@ -25,37 +25,31 @@ export function ComputedCell({ runtimeId, computed, lost, format }: ComputedCell
     },
     [board, computed],
   );
+  // Results are compared as texts: a frame that changes none of them draws nothing.
   const read = useCallback(() => {
-    const result = computed.evaluate((operand) => {
-      const live = board?.get(operand);
-      return live == null ? null : operandOf(live.value, live.item);
-    });
-    return result === null ? null : formatShort(result, resultItem(result), format ?? general, 80);
-  }, [board, computed, format, general]);
-  const text = useSyncExternalStore(subscribe, read);
-  const wrong = useWrong(board, computed, subscribe);
+    const result = computed.evaluate((operand) => board?.get(operand) ?? null);
+    switch (result.kind) {
+      case 'value':
+        return `=${formatShort(result.value, result.item, format ?? general, 80)}`;
+      case 'none':
+        return `?${t(result.key, result.values)}`;
+      case 'wrong':
+        return `!${t(result.key, result.values)}`;
+      case 'refused':
+        return `!${result.message}`;
+      case 'waiting':
+        return `?${t('watch.noResult')}`;
+    }
+  }, [board, computed, format, general, t]);
+  const shown = useSyncExternalStore(subscribe, read);
   if (runtimeId === null) return null;
-  if (wrong !== null) return <span className={styles.invalid}>{wrong}</span>;
+  const text = shown.slice(1);
+  if (shown.startsWith('!')) return <span className={styles.invalid}>{text}</span>;
+  const tone = lost ? 'lost' : shown === '=TRUE' ? 'true' : shown === '=FALSE' ? 'false' : 'plain';
+  const hasValue = shown.startsWith('=');
   return (
-    <span
-      className={styles.value}
-      data-tone={lost ? 'lost' : text === 'TRUE' ? 'true' : text === 'FALSE' ? 'false' : 'plain'}
-      title={text === null ? t('watch.noResult') : undefined}
-    >
-      {text ?? '…'}
+    <span className={styles.value} data-tone={tone} title={hasValue ? undefined : text}>
+      {hasValue ? text : '…'}
     </span>
   );
-}
-
-/** What the server says against the first variable that it does not know. */
-function useWrong(
-  board: { get: (expression: string) => { item: { error?: string | null } } | null } | null,
-  computed: Computed,
-  subscribe: (listener: () => void) => () => void,
-): string | null {
-  const read = useMemo(
-    () => () => computed.operands.map((operand) => board?.get(operand)?.item.error).find(Boolean) ?? null,
-    [board, computed],
-  );
-  return useSyncExternalStore(subscribe, read);
 }

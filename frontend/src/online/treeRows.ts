@@ -1,5 +1,5 @@
 /** Rows of an online table: roots and, where opened, their components. Pure functions. */
-import type { Computed } from './computed';
+import type { Computed } from './computed/computed';
 import { wholeArray, type SymbolChild } from './symbols';
 
 export interface OnlineRoot {

@@ -14,7 +14,7 @@ import { Empty } from '@/ui/Empty';
 import type { MenuEntry } from '@/ui/Menu';
 import { LostBar } from '../LostBar';
 import { onlineColumns } from '../columns';
-import { parseComputed } from '../computed';
+import { parseComputed } from '../computed/computed';
 import { OnlineTable, type OnlineTableHandle } from '../OnlineTable';
 import panel from '../OnlineTable.module.css';
 import type { OnlineRoot, OnlineRow } from '../treeRows';

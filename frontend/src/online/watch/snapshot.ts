@@ -1,9 +1,10 @@
 /** Values of all rows of a list in one cycle: kept, compared, written to a file. */
 import { api } from '@/api/client';
 import type { Schemas } from '@/api/types';
-import { resultItem, type Operand } from '../computed';
+import type { Source } from '../computed/computed';
+import { literalOf } from '../computed/literals';
 import { formatLiteral } from '../format';
-import { expressionKey } from '../item';
+import { expressionKey, type PlcValue } from '../item';
 import { isExpandable, type OnlineRow } from '../treeRows';
 
 export interface Snapshot {
@@ -40,18 +41,36 @@ export function literalsOf(
   return new Map(
     rows.map((row) => {
       if (row.computed === undefined) return [expressionKey(row.expression), read.get(row.expression)?.literal ?? null];
-      const result = row.computed.evaluate((operand) => operandFrom(read.get(operand)));
-      return [expressionKey(row.expression), result === null ? null : formatLiteral(result, resultItem(result))];
+      const result = row.computed.evaluate((operand) => sourceOf(read.get(operand)));
+      return [
+        expressionKey(row.expression),
+        result.kind === 'value' ? formatLiteral(result.value, result.item) : null,
+      ];
     }),
   );
 }
 
-function operandFrom(value: Value | undefined): Operand | null {
-  if (value?.literal == null) return null;
-  if (typeof value.value === 'boolean') return value.value;
-  if (typeof value.value !== 'number') return null;
-  if (value.type === 'REAL' || value.type === 'LREAL') return value.value;
-  return /^-?\d+$/.test(value.literal) ? BigInt(value.literal) : BigInt(Math.trunc(value.value));
+function sourceOf(value: Value | undefined): Source | null {
+  if (value === undefined) return null;
+  const { type, kind, size, base, error } = value;
+  const item = { type: type ?? '', kind: kind ?? '', size: size ?? 0, enum: value.enum ?? undefined, base: base ?? '' };
+  return { value: exactValue(value), item: { ...item, error } };
+}
+
+/** JSON rounds whole numbers beyond 53 bit and knows neither infinity nor NaN: there the literal says what it is. */
+function exactValue({ value, literal, kind }: Value): PlcValue | null {
+  if (typeof value === 'boolean' || typeof value === 'string') return value;
+  if (kind === 'real') return typeof value === 'number' ? value : special(literal ?? '');
+  if (typeof value !== 'number') return null;
+  if (Number.isSafeInteger(value)) return value;
+  const exact = literalOf((literal ?? '').replace(/^-/, ''))?.value;
+  if (typeof exact !== 'bigint') return null;
+  return value < 0 ? -exact : exact;
+}
+
+function special(literal: string): number | null {
+  if (/nan/i.test(literal)) return NaN;
+  return /inf/i.test(literal) ? (literal.startsWith('-') ? -Infinity : Infinity) : null;
 }
 
 export const literalIn = (snapshot: Snapshot, row: OnlineRow): string | null =>

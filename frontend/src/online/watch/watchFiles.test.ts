@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { parseComputed } from '../computed';
+import { parseComputed } from '../computed/computed';
 import type { OnlineRow } from '../treeRows';
 import { curve, HISTORY_MS, heightOf, ValueHistory } from './history';
 import { forcesFrom, forcesText, listFrom, listText } from './listFile';
@@ -20,6 +20,10 @@ const value = (expression: string, literal: string, plain: unknown, type: string
   literal,
   value: plain,
   type,
+  kind: 'int',
+  size: 2,
+  enum: null,
+  base: null,
   forced: false,
   error: null,
 });
@@ -64,6 +68,22 @@ describe('snapshots', () => {
   it('tell which rows have changed', () => {
     expect(rows.map((one) => differs(at(2, 3), at(2, 4), one))).toEqual([false, true, true]);
     expect(differs(undefined, at(1, 1), rows[0]!)).toBe(false);
+  });
+  it.each([
+    ['NOT a', 'WORD', 'bits', 2, 255, '16#00FF', '65280'],
+    ['a + 1', 'LINT', 'int', 8, -9007199254740992, '-9007199254740993', '-9007199254740992'],
+    ['a MOD 10', 'ULINT', 'uint', 8, 18446744073709552000, '16#FFFFFFFFFFFFFFFF', '5'],
+    ['a * 2', 'TIME', 'time', 4, 1500, 'T#1s500ms', 'T#3s'],
+    ['a - 1', 'LREAL', 'real', 8, null, '-Infinity', '-Inf'],
+    ['a + 1', 'REAL', 'real', 4, null, 'NaN', 'NaN'],
+    ['a = Run', 'Mode', 'enum', 2, 5, 'Run', 'TRUE'],
+    ['a / 0', 'UINT', 'uint', 2, 5, '5', null],
+    ['a + 1', 'STRING', 'string', 81, 'x', "'x'", null],
+  ])('compute %s of a %s in its type', (text, type, kind, size, plain, literal, expected) => {
+    const read = { ...value('a', literal, plain, type), kind, size };
+    const typed = kind === 'enum' ? { ...read, base: 'int', enum: { Off: 0, Run: 5 } } : read;
+    const found = literalsOf([row(text, { computed: parseComputed(text)! })], ['a'], [typed]);
+    expect([...found.values()]).toEqual([expected]);
   });
   it('are written as CSV', () => {
     expect(snapshotsCsv(rows, [at(2, 3)])).toBe(
