@@ -25,7 +25,10 @@ function declared(type: string, literal: string): Source {
   if (found === null) return { item: { kind: 'string', type, size: 81 }, value: literal };
   const given = literalOf(literal.replace(/^-/, ''))!.value;
   const value = literal.startsWith('-') ? -given : given;
-  return { item: itemOf(found), value: type === 'BOOL' ? value === 1n : type === 'REAL' ? Math.fround(Number(value)) : value };
+  return {
+    item: itemOf(found),
+    value: type === 'BOOL' ? value === 1n : type === 'REAL' ? Math.fround(Number(value)) : value,
+  };
 }
 
 const unknown = (path: string): Source => ({
@@ -39,7 +42,8 @@ function valued({ declaration }: Table) {
   );
   sources.set('PLC_PRG.w.3', { item: { kind: 'bits', type: 'WORD', size: 1, bit: 3 }, value: true });
   sources.set('PLC_PRG.w.8', { item: { kind: 'bits', type: 'WORD', size: 1, bit: 0 }, value: false });
-  return (text: string): Result | undefined => parseComputed(text)?.evaluate((path) => sources.get(path) ?? unknown(path));
+  return (text: string): Result | undefined =>
+    parseComputed(text)?.evaluate((path) => sources.get(path) ?? unknown(path));
 }
 
 function check(found: Result | undefined, type: string, expected: string | null): void {

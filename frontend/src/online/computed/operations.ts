@@ -129,8 +129,7 @@ function combine(op: string, left: Operand, right: Operand): Operand {
 
 /** Two literals give a literal again, of any size, which adapts to what it meets. */
 function folded(op: string, a: Scalar, b: Scalar): Scalar {
-  if (op === 'MIN') return b < a ? b : a;
-  if (op === 'MAX') return b > a ? b : a;
+  if (op === 'MIN' || op === 'MAX') return extreme(op, a, b);
   if (op === '/' || op === 'MOD') {
     if (Number(b) === 0) throw new ComputedError('watch.computed.divided', { op });
     if (op === 'MOD' && !(typeof a === 'bigint' && typeof b === 'bigint'))
@@ -139,43 +138,33 @@ function folded(op: string, a: Scalar, b: Scalar): Scalar {
   return typeof a === 'bigint' && typeof b === 'bigint' ? whole(op, a, b) : real(op, Number(a), Number(b));
 }
 
+const WHOLE: Readonly<Record<string, (a: bigint, b: bigint) => bigint>> = {
+  '+': (a, b) => a + b,
+  '-': (a, b) => a - b,
+  '*': (a, b) => a * b,
+  '/': (a, b) => a / b,
+  MOD: (a, b) => a % b,
+};
+
+/** IEEE 754: a division by zero is infinite, or no number. */
+const REALS: Readonly<Record<string, (a: number, b: number) => number>> = {
+  '+': (a, b) => a + b,
+  '-': (a, b) => a - b,
+  '*': (a, b) => a * b,
+  '/': (a, b) => a / b,
+};
+
 function whole(op: string, first: Scalar, second: Scalar): bigint {
   const [a, b] = [first as bigint, second as bigint];
   if ((op === '/' || op === 'MOD') && b === 0n) throw new ComputedError('watch.computed.divided', { op });
-  switch (op) {
-    case '+':
-      return a + b;
-    case '-':
-      return a - b;
-    case '*':
-      return a * b;
-    case '/':
-      return a / b;
-    case 'MOD':
-      return a % b;
-    case 'MIN':
-      return b < a ? b : a;
-    default:
-      return b > a ? b : a;
-  }
+  return WHOLE[op]?.(a, b) ?? extreme(op, a, b);
 }
 
-/** IEEE 754: a division by zero is infinite, or no number. */
-function real(op: string, a: number, b: number): number {
-  switch (op) {
-    case '+':
-      return a + b;
-    case '-':
-      return a - b;
-    case '*':
-      return a * b;
-    case '/':
-      return a / b;
-    case 'MIN':
-      return b < a ? b : a;
-    default:
-      return b > a ? b : a;
-  }
+const real = (op: string, a: number, b: number) => REALS[op]?.(a, b) ?? extreme(op, a, b);
+
+/** MIN or MAX: the first one, unless the second is beyond it. */
+function extreme<T extends Scalar>(op: string, a: T, b: T): T {
+  return (op === 'MIN' ? b < a : b > a) ? b : a;
 }
 
 /** Times of one type added and subtracted, or multiplied with an integer and divided by an unsigned one. */

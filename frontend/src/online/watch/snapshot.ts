@@ -42,10 +42,7 @@ export function literalsOf(
     rows.map((row) => {
       if (row.computed === undefined) return [expressionKey(row.expression), read.get(row.expression)?.literal ?? null];
       const result = row.computed.evaluate((operand) => sourceOf(read.get(operand)));
-      return [
-        expressionKey(row.expression),
-        result.kind === 'value' ? formatLiteral(result.value, result.item) : null,
-      ];
+      return [expressionKey(row.expression), result.kind === 'value' ? formatLiteral(result.value, result.item) : null];
     }),
   );
 }
