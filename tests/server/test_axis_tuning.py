@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import AsyncIterator, Awaitable, Iterator, Sequence
+from contextlib import asynccontextmanager, contextmanager
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from fastapi import FastAPI
 from server_clients import CHEAP, RUNTIME, connected, real_app, serving, until
 
+from tappet.codegen.symbol_map import SymbolMap
+from tappet.runtime.client import RuntimeRefused
+from tappet.runtime.operations.values import Read
 from tappet.server.settings import LOCAL_RUNTIME, ServerSettings
+from tappet.server.tuning.service import MeasuredAxis, Measuring
 
 ME, ANOTHER = 5, 6
 BODY = """Spindle.in.bRegulatorRealState := Spindle.out.bRegulatorOn;
@@ -34,6 +39,7 @@ class Machine:
 
     def __init__(self, app: FastAPI) -> None:
         self.client = client = connected(app)
+        self.runtimes = app.state.services.runtimes
         store = app.state.services.store
         info = store.create_project("Tuned", "ann")
         project = store.load(info.id)
@@ -207,3 +213,63 @@ def test_a_measurement_that_is_interrupted_says_so(machine: Machine, how: str) -
         if how == "gone":
             until(lambda: machine.value("IoConfig_AxisPanels.Servo.eState") in ("Free", 0))
             assert machine.value("IoConfig_Globals.Servo.bRegulatorOn") is False
+
+
+class ChangedRuntime:
+    """A link and its runtime: an online change came, which the link has not heard of yet."""
+
+    def __init__(self, symbols: SymbolMap) -> None:
+        self._symbols = symbols
+        self.code_id = self.loaded = "first"
+
+    def loaded_symbols(self) -> SymbolMap:
+        return self._symbols
+
+    @asynccontextmanager
+    async def client(self) -> AsyncIterator[ChangedRuntime]:
+        yield self
+
+    async def call(self, order: Any) -> Any:
+        if not isinstance(order, Read):
+            return SimpleNamespace(state="Control", holder=ME)
+        self._check(order.code_id)
+        return [bytes(size) for _, size in order.places]
+
+    async def record(
+        self, items: Sequence[Any], task: str | None, divider: int, min_interval_ns: int, *, code_id: str = ""
+    ) -> Any:
+        self._check(code_id)
+        return self
+
+    def __aiter__(self) -> ChangedRuntime:
+        return self
+
+    async def __anext__(self) -> Any:
+        raise StopAsyncIteration
+
+    async def close(self) -> None: ...
+
+    def _check(self, code_id: str) -> None:
+        if code_id not in ("", self.loaded):
+            raise RuntimeRefused("refused", "the application was changed meanwhile")
+
+
+@pytest.mark.parametrize("when", ["facts", "record", "end"])
+async def test_places_of_an_application_are_not_those_of_another_one(machine: Machine, when: str) -> None:
+    """Nothing is read or recorded there, and the axis does not move for a record that would be wrong."""
+    runtime = ChangedRuntime(machine.runtimes.get(LOCAL_RUNTIME).loaded_symbols())
+    axis = MeasuredAxis(runtime, "Servo")  # type: ignore[arg-type]
+    facts: Any = SimpleNamespace(check=lambda height, excitation: None, bus_task="MainTask")
+    begun: list[str] = []
+
+    async def begin() -> None:
+        begun.append(runtime.loaded)
+        runtime.loaded = "second"
+
+    if when != "end":
+        runtime.loaded = "second"
+    order = Measuring(ME, "step", 5.0, 0.1)
+    asking: Awaitable[Any] = axis.facts() if when == "facts" else axis.measure(order, facts, begin)
+    with pytest.raises(RuntimeRefused, match="changed meanwhile"):
+        await asking
+    assert begun == (["first"] if when == "end" else [])

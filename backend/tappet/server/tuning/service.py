@@ -41,6 +41,8 @@ class MeasuredAxis:
         """Raises problems: 404 when there is no such axis, 409 when nothing closes a loop."""
         self.name = axis
         self._link = link
+        self._code_id = link.code_id
+        """Of the application whose places these are: in another one they are those of other variables."""
         try:
             self._measurement = AxisMeasurement(link.loaded_symbols(), axis)
         except SymbolError:
@@ -53,7 +55,7 @@ class MeasuredAxis:
     async def facts(self) -> AxisFacts:
         """As they are now."""
         async with self._link.client() as client:
-            read: list[bytes] = await client.call(Read(self._measurement.fact_places))
+            read: list[bytes] = await client.call(Read(self._measurement.fact_places, self._code_id))
         return self._measurement.facts(read)
 
     async def measure(
@@ -69,7 +71,9 @@ class MeasuredAxis:
             raise Problem(409, "measurement-refused", f"{error}.") from error
         async with self._link.client() as client:
             await self._check_control(client, order.holder)
-            recorder = await client.record(self._measurement.recorded_places, facts.bus_task, 1, 0)
+            recorder = await client.record(
+                self._measurement.recorded_places, facts.bus_task, 1, 0, code_id=self._code_id
+            )
             try:
                 await begin()
                 action: Action = "measure_step" if order.excitation == "step" else "measure_move"
@@ -113,7 +117,7 @@ class MeasuredAxis:
     async def _check_end(self, client: PlcClient, holder: int, *, began: bool) -> None:
         """Raises problems unless the measurement came to its end."""
         status = await client.call(KeepAxis(self.name, holder))
-        read: list[bytes] = await client.call(Read(self._measurement.end_places))
+        read: list[bytes] = await client.call(Read(self._measurement.end_places, self._code_id))
         done, error = self._measurement.end(read)
         if done and began:
             return
