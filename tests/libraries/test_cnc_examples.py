@@ -153,7 +153,7 @@ def test_coordinate_shift() -> None:
 def test_function_of_a_machine() -> None:
     """cnc EX-28: what is stored. Spec GEO-17, CNCR-38."""
     first, function, last = path("N0 G1 X50 F100\nN10 M7 K1.5 L2\nN20 G1 X100")
-    assert first["dVelEnd"] == 0
+    assert first["dVelEnd"] == 100  # The stop is planned by SMC_CheckVelocities
     assert function.kind == "MCOMMAND"
     assert (function["iHelpID[0]"], function["dT1"], function["dT2"], function.length) == (7, 1.5, 2, 0)
     assert [*function.start[:2], *function.dest[:2]] == [50, 0, 50, 0]

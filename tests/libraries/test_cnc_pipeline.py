@@ -15,6 +15,8 @@ PROGRAM Main
 VAR
     dec     : SM3_CNC.SMC_NCDecoder;
     smooth  : SM3_CNC.SMC_SmoothPath;
+    ahead   : SM3_CNC.SMC_PreAcknowledgeMFunctions;
+    iAhead  : INT; (* The M function that is acknowledged in advance *)
     check   : SM3_CNC.SMC_CheckVelocities;
     ipo     : SM3_CNC.SMC_Interpolator;
     ncprog  : SM3_CNC.SMC_CNC_REF;
@@ -33,6 +35,7 @@ ncprog.pgc := ADR(aWords);
 dec(ncprog := ncprog, bExecute := xRun, nSizeOutQueue := SIZEOF(aFirst), pbyBufferOutQueue := ADR(aFirst));
 smooth(bExecute := xRun, poqDataIn := dec.poqDataOut, nSizeOutQueue := SIZEOF(aSecond),
     pbyBufferOutQueue := ADR(aSecond));
+ahead(bEnable := xRun AND iAhead > 0, iM := iAhead, poqDataIn := smooth.poqDataOut);
 check(bExecute := xRun, poqDataIn := smooth.poqDataOut, dAngleTol := 1);
 ipo(bExecute := xRun, poqDataIn := check.poqDataOut, dwIpoTime := {CYCLE_MS * 1000}, dOverride := 1,
     bAcknM := nWait > 1);
@@ -89,3 +92,16 @@ def test_time_and_end(text: str, seconds: float, end: tuple[float, float], faste
         assert float(program.literal("Main.fFastest")) <= fastest * (1 + 1e-6)
         assert float(program.literal("Main.fFastest")) > fastest * 0.95
         assert program.literal("Main.diM") == ("5" if "M5" in text else "0")
+
+
+@pytest.mark.parametrize(("ahead", "seconds", "seen"), [(5, 11.0, "0"), (6, 12.0, "5")])
+def test_an_m_function_acknowledged_in_advance(ahead: int, seconds: float, seen: str) -> None:
+    """Spec CNCR-152: one movement where it is the acknowledged one, else a stop."""
+    with run(PROGRAM, cycles=0) as program:
+        write_words(program, list(code_words(parse("G1 X50 F10 E10 E-10\nM5\nG1 X100").lines)))
+        program.set("Main", iAhead=ahead)
+        for _ in range(round(seconds * 1000 / CYCLE_MS) + 40):
+            program.cycle()
+        assert program.literal("Main.xDone") == "TRUE"
+        assert program.literal("Main.diM") == seen
+        assert int(program.literal("Main.nCycles")) * CYCLE_MS / 1000 == pytest.approx(seconds, abs=0.032)

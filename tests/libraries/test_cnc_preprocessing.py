@@ -427,7 +427,7 @@ def test_rounding() -> None:
 
 
 def test_a_bend_by_rounding_stays() -> None:
-    """Two lines of one direction whose points are no binary numbers: an arc would have a radius beyond all bounds."""
+    """Two lines of one direction, but for the last binary place: an arc would have a radius beyond all bounds."""
     ends = [(8 + k * math.cos(math.radians(1)), k * math.sin(math.radians(1))) for k in (0, 8, 17)]
     result = through(polyline((0, 0), *ends, marks={0: ROUND}), Block("SMC_RoundPath", "dRadius := 1.5"))
     assert [geo.kind for geo in result.objects] == [LIN, CCLW, LIN, LIN]
