@@ -1,4 +1,4 @@
-"""SMC_CheckVelocities and SMC_Interpolator: worked examples, cnc_runtime EX-20 and EX-30 to EX-35."""
+"""SMC_CheckVelocities and SMC_Interpolator: worked examples, cnc_runtime EX-20, EX-30, EX-31 and EX-35."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SM3_CNC: worked examples of the preprocessing blocks. Spec cnc_runtime 5, EX-10 to EX-16."""
+"""SM3_CNC: worked examples of the preprocessing blocks. Spec cnc_runtime 5: cnc_runtime EX-10 and the next."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ CORNERS = [(0, 0), (10, 0), (10, 20), (30, 20), (40, 20)]
     ],
 )
 def test_tool_correction_of_lines(side: int, mode: str, expected: list[object]) -> None:
-    """EX-10. Spec CNCR-61, CNCR-62, CNCR-64 to CNCR-67, PRE-01."""
+    """cnc_runtime EX-10. Spec CNCR-61, CNCR-62, CNCR-64 to CNCR-67, PRE-01."""
     block = Block("SMC_ToolCorr", f"eMode := SM3_CNC.SMC_TOOLCORRMODE.{mode}")
     result = through(polyline(*CORNERS, marks={0: side, 2: CORRECTION_OFF}, dToolRadius=2), block)
     assert shape(result) == expected
@@ -103,7 +103,7 @@ def pairs(points: list[tuple[float, float]]) -> list[tuple[tuple[float, float], 
 
 @pytest.mark.parametrize(("side", "radius"), [(LEFT, 8), (RIGHT, 12)])
 def test_tool_correction_of_an_arc(side: int, radius: float) -> None:
-    """EX-10, arc. Spec CNCR-63."""
+    """cnc_runtime EX-10, arc. Spec CNCR-63."""
     objects = [
         line(position(-10, 0), position(0, 0), byInternMark=side, dToolRadius=2),
         line(position(0, 0), position(20, 0), dToolRadius=2),
@@ -132,7 +132,7 @@ def test_tool_correction_of_an_arc(side: int, radius: float) -> None:
     ],
 )
 def test_one_corrected_object(mode: str, expected: list[object]) -> None:
-    """EX-25 of cnc. Spec CNCR-66, CNCR-67."""
+    """cnc EX-25. Spec CNCR-66, CNCR-67."""
     objects = polyline((0, 0), (100, 0), (200, 0), marks={0: LEFT | CORRECTION_OFF}, dToolRadius=5)
     assert (
         shape(through(objects, Block("SMC_ToolCorr", f"eMode := SM3_CNC.SMC_TOOLCORRMODE.{mode}")))
@@ -237,7 +237,7 @@ LOOP = [(0, 0), (20, 0), (20, 10), (10, 10), (10, -10)]
 
 
 def test_loops() -> None:
-    """EX-11. Spec CNCR-70 to CNCR-72, PRE-04."""
+    """cnc_runtime EX-11. Spec CNCR-70 to CNCR-72, PRE-04."""
     block = Block("SMC_AvoidLoop")
     marked = through(polyline(*LOOP, marks={0: LOOPS, 3: LOOPS_OFF}), block)
     assert shape(marked) == [(LIN, (0, 0), (10, 0)), (LIN, (10, 0), (10, -10))]
@@ -266,7 +266,7 @@ SMOOTHED = [(0, 0), (10, 0), (10, 20), (20, 20), (20, 0), (30, 0)]
 
 @pytest.mark.parametrize(("mode", "middle"), [("SP_SPLINE3", (10.5, 19.5)), ("SP_SPLINE5", (10.375, 19.625))])
 def test_smoothing(mode: str, middle: tuple[float, float]) -> None:
-    """EX-12. Spec CNCR-80, CNCR-81, CNCR-85, PRE-02."""
+    """cnc_runtime EX-12. Spec CNCR-80, CNCR-81, CNCR-85, PRE-02."""
     block = Block("SMC_SmoothPath", f"eMode := SM3_CNC.SMC_SMOOTHPATHMODE.{mode}")
     result = through(polyline(*SMOOTHED, marks={1: SMOOTH, 3: CORNERS_OFF}, dToolRadius=2), block)
     assert shape(result) == [
@@ -297,7 +297,7 @@ def test_smoothing(mode: str, middle: tuple[float, float]) -> None:
     ],
 )
 def test_distances_of_smoothing(symmetrical: str, expected: list[object]) -> None:
-    """EX-13. Spec CNCR-83, CNCR-84."""
+    """cnc_runtime EX-13. Spec CNCR-83, CNCR-84."""
     objects = polyline(*SMOOTHED, marks={1: SMOOTH, 3: CORNERS_OFF}, dToolRadius=10)
     block = Block("SMC_SmoothPath", f"bSymmetricalDistances := {symmetrical}")
     assert shape(through(objects, block))[2:-2] == expected
@@ -305,7 +305,7 @@ def test_distances_of_smoothing(symmetrical: str, expected: list[object]) -> Non
 
 @pytest.mark.parametrize(("mode", "jumps"), [("SP_SPLINE3", True), ("SP_SPLINE5", False)])
 def test_the_acceleration_at_the_ends_of_splines(mode: str, jumps: bool) -> None:
-    """EX-14: by the second derivative of X at constant path velocity."""
+    """cnc_runtime EX-14: by the second derivative of X at constant path velocity."""
     objects = polyline((0, 0), (0, 10), (10, 10), (10, 0), marks={0: SMOOTH, 2: CORNERS_OFF}, dToolRadius=10)
     found = through(objects, Block("SMC_SmoothPath", f"eMode := SM3_CNC.SMC_SMOOTHPATHMODE.{mode}")).objects
     splines = [geo for geo in found if geo.kind == SPLINE]
@@ -413,7 +413,7 @@ def test_small_angles_stay(block: str, tolerance: str, count: int) -> None:
 
 
 def test_rounding() -> None:
-    """EX-15. Spec CNCR-90 to CNCR-92, PRE-03."""
+    """cnc_runtime EX-15. Spec CNCR-90 to CNCR-92, PRE-03."""
     objects = polyline((0, 0), (10, 0), (10, 10), marks={0: ROUND})
     result = through(objects, Block("SMC_RoundPath", "dRadius := 2"))
     assert shape(result) == [(LIN, (0, 0), (8, 0)), (CCLW, (8, 0), (10, 2)), (LIN, (10, 2), (10, 10))]
@@ -427,7 +427,7 @@ def test_rounding() -> None:
 
 
 def test_a_bend_by_rounding_stays() -> None:
-    """Two lines of one direction, but for the last binary place: an arc would have a radius beyond all bounds."""
+    """Two lines of one direction, but for the last binary place: an arc would be beyond all bounds."""
     ends = [(8 + k * math.cos(math.radians(1)), k * math.sin(math.radians(1))) for k in (0, 8, 17)]
     result = through(polyline((0, 0), *ends, marks={0: ROUND}), Block("SMC_RoundPath", "dRadius := 1.5"))
     assert [geo.kind for geo in result.objects] == [LIN, CCLW, LIN, LIN]
@@ -440,7 +440,7 @@ def test_a_bend_by_rounding_stays() -> None:
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("space", [False, True])
 def test_the_radius_by_the_angle(angle: float, radius: float, side: int, space: bool) -> None:
-    """EX-15, also of corners that stand upright in space."""
+    """cnc_runtime EX-15, also of corners that stand upright in space."""
     turn = math.radians(angle)
     objects = polyline(
         (0, 0), (10, 0), (10 + 10 * math.cos(turn), side * 10 * math.sin(turn)), marks={0: ROUND}
@@ -466,7 +466,7 @@ def test_the_radius_by_the_angle(angle: float, radius: float, side: int, space: 
     ],
 )
 def test_velocities_at_arcs(objects: list[Geo], vel_end: float) -> None:
-    """EX-16. Spec CNCR-100."""
+    """cnc_runtime EX-16. Spec CNCR-100."""
     for geo in objects:
         geo.members |= {"dVel": 1000.0, "dVelEnd": 1000.0}
     limited = through(objects, Block("SMC_LimitCircularVelocity", "dMaxAccJump := 100"))
@@ -477,14 +477,14 @@ def test_velocities_at_arcs(objects: list[Geo], vel_end: float) -> None:
 
 
 def test_the_velocity_on_an_arc() -> None:
-    """EX-16: also on the only object of a path."""
+    """cnc_runtime EX-16: also on the only object of a path."""
     objects = [arc((0, 25), 25, 270, -90, dVel=1000, dVelEnd=1000)]
     found = through(objects, Block("SMC_LimitCircularVelocity", "dMaxAcc := 400")).objects
     assert found[0].member("dVel") == pytest.approx(100)
 
 
 def test_limits_of_the_program() -> None:
-    """EX-16, cnc EX-29. Spec CNCR-101, GEO-22; in an S shape 1.875 times as fast."""
+    """cnc_runtime EX-16, cnc EX-29. Spec CNCR-101, GEO-22; in an S shape 1.875 times as fast."""
     objects = [line(position(0, 0), position(100, 0), dVel=50, dVelEnd=50) for _ in range(2)]
     for geo in objects:
         geo.end[6] = 50
@@ -497,7 +497,7 @@ def test_limits_of_the_program() -> None:
 
 
 def test_limits_of_the_inputs() -> None:
-    """EX-16. Spec CNCR-102: in 3D mode Z belongs to the path."""
+    """cnc_runtime EX-16. Spec CNCR-102: in 3D mode Z belongs to the path."""
     flat = line(position(0, 0, 0), position(100, 0, 20, dA3=50), dVel=100, dVelEnd=100)
     space = line(position(0, 0, 0), position(100, 0, 75), dVel=100, dVelEnd=100)
     space.space = True
@@ -635,7 +635,7 @@ END_PROGRAM
     ],
 )
 def test_the_box_of_a_path(second: Geo, positive: int, negative: int) -> None:
-    """EX-16. Spec CNCR-103, CNCR-26: the apex counts, a limit is inside, the path is not changed."""
+    """cnc_runtime EX-16. Spec CNCR-103, CNCR-26: the apex counts, a limit is inside, the path stays."""
     second.members["iSourceLine_No"] = 20.0
     objects = [line(position(0, 0), position(40, 50)), second, line(position(), position())]
     with run(LIMITS, cycles=0) as program:

@@ -1,4 +1,4 @@
-/** Circular arcs in the X/Y plane (cnc.md GEO-05 to GEO-08, EX-16). Angles in radians, counter-clockwise positive. */
+/** Circular arcs in the X/Y plane (cnc.md GEO-05 to GEO-08, cnc EX-16). Angles in radians, counter-clockwise positive. */
 
 export type Point = readonly [number, number];
 

@@ -1,4 +1,4 @@
-/** Arcs, ellipses and parabolas have the places and lengths of the specification (cnc.md EX-16, EX-20, EX-21). */
+/** Arcs, ellipses and parabolas have the places and lengths of the specification (cnc EX-16, EX-20, EX-21). */
 import { describe, expect, it } from 'vitest';
 import { arcOfCentre, arcOfRadius, pointOn } from './arc';
 import { curveOf, lengthOf } from './curve';
@@ -10,7 +10,7 @@ function parts(count: number): number[] {
 }
 
 describe('arcs', () => {
-  it('EX-16 (a), (b), (h), (i) as in the specification', () => {
+  it('cnc EX-16 (a), (b), (h), (i) as in the specification', () => {
     const a = arcOfRadius([100, 100], [200, 100], 50, true)!;
     expect(a.centre[0]).toBeCloseTo(150);
     expect(a.radius * Math.abs(a.sweep)).toBeCloseTo(157.0796, 4);
@@ -23,7 +23,7 @@ describe('arcs', () => {
       100, 150, 78.5398,
     ]);
   });
-  it('EX-20 EX-21 ellipses and parabolas have the lengths of the specification', () => {
+  it('cnc EX-20, EX-21 ellipses and parabolas have the lengths of the specification', () => {
     const length = (lines: string[]) => {
       const { block: last, state, after, code } = stepsOf(lines, ORIGIN, []).at(-1)!;
       return lengthOf(curveOf(last, state, after, code!)!);

@@ -104,7 +104,7 @@ describe('a block', () => {
 });
 
 describe('the state', () => {
-  it('EX-17 absolute and relative coordinates', () => {
+  it('cnc EX-17 absolute and relative coordinates', () => {
     expect(end('N0 G91\nN10 G1 X10 Y10 F100\nN20 G1 X100')).toEqual([110, 10]);
     expect(end('N0 G90\nN10 G1 X10 Y10 F100\nN20 G1 X100')).toEqual([100, 10]);
   });
@@ -112,13 +112,13 @@ describe('the state', () => {
     expect(end('G1 X10\nX20 Y5\nG4 T1\nY7')).toEqual([20, 7]);
     expect(behind('G1 X10\nG90\nX20').travel).toBe(1);
   });
-  it('EX-24 GEO-21 coordinate shifts', () => {
+  it('cnc EX-24 GEO-21 coordinate shifts', () => {
     expect(end('G54 X10 Y5\nG1 X10 Y0')).toEqual([20, 5]);
     expect(end('G54 X10 Y5\nG1 X10 Y0\nG55 X1\nG1 X10 Y0')).toEqual([21, 5]);
     expect(end('G54 X10 Y5\nG1 X10 Y0\nG53\nG1 X10 Y0')).toEqual([10, 0]);
     expect(end('G1 X10 Y0\nG56 X0 Y0\nG1 X5 Y5')).toEqual([15, 5]);
   });
-  it('EX-16 GEO-07 arcs by opening angle end where the angle ends', () => {
+  it('cnc EX-16 GEO-07 arcs by opening angle end where the angle ends', () => {
     expect(end('G1 X100 Y100\nG2 I50 J0 T180')).toEqual([200, 100]);
     expect(end('G1 X100 Y100\nG2 I50 J0 K180')).toEqual([200, 100]);
     expect(end('G1 X100 Y100\nG2 I50 J0 T720')).toEqual([100, 100]);
@@ -127,7 +127,7 @@ describe('the state', () => {
   it('GC-12 F, E and E- hold until another one is given', () => {
     expect(behind('G1 X10 F10 E20 E-30\nX20\nF15').rates).toEqual({ F: 15, E: 20, 'E-': 30 });
   });
-  it('EX-30 GC-10 blocks that are suppressed change nothing', () => {
+  it('cnc EX-30 GC-10 blocks that are suppressed change nothing', () => {
     const text = 'N0 G1 X10 F10\n/N10 G1 Y10\nN20 G1 X20';
     const suppressed = program(text, { suppress: true });
     expect(suppressed.stateBefore(3).position.slice(0, 2)).toEqual([20, 0]);
@@ -137,9 +137,9 @@ describe('the state', () => {
 
 describe('messages', () => {
   it.each<[string, string, Rule[]]>([
-    ['EX-32 GC-08', 'N0 G77 X1', ['unknownCode']],
-    ['EX-32 CNC-37', 'N0 G1 X', ['missingValue']],
-    ['EX-32', 'N0 G20 L999 K1', ['noTarget']],
+    ['cnc EX-32 GC-08', 'N0 G77 X1', ['unknownCode']],
+    ['cnc EX-32 CNC-37', 'N0 G1 X', ['missingValue']],
+    ['cnc EX-32', 'N0 G20 L999 K1', ['noTarget']],
     ['GC-06', 'N0 X10 Y5', ['noTravel']],
     ['GC-08', 'N0 G90 G1 X10', ['twoCommands', 'notTaken']],
     ['CNC-37', 'N0 G1 X10 ?', ['noWord']],
@@ -155,23 +155,23 @@ describe('messages', () => {
     ['H at most three', 'G1 X9 H1 O0.1 H2 O0.2 H3 O0.3 H4 O0.4', ['manySwitches']],
     ['H without place', 'G1 X9 H1', ['switchPlace']],
     ['L without H', 'G1 X9 L1', ['switchPlace']],
-    ['EX-19', 'N0 G1 X20\nN10 G1 X100 H2 L20 H-2 L-10', []],
+    ['cnc EX-19', 'N0 G1 X20\nN10 G1 X100 H2 L20 H-2 L-10', []],
     ['level X', 'G31 X10 PROBE1', ['extension', 'extension']],
     ['VAR-05', 'LET #x : LREAL := 3', ['extension']],
     ['GC-02', 'G1 N10 X5', ['blockNumber']],
     ['GC-02 twice', 'N10 G1 X5\nN10 G1 X6', ['sameNumber']],
-    ['GEO-05 EX-16 (g)', 'G1 X100 Y100\nG2 X200 Y100 R40', ['noArc']],
+    ['GEO-05 cnc EX-16 (g)', 'G1 X100 Y100\nG2 X200 Y100 R40', ['noArc']],
     ['GEO-06', 'G2 X10 Y0 I3 J0', ['noArc']],
     ['GEO-07', 'G2 I5 J0 T1081', ['openingAngle']],
-    ['EX-28', 'N0 G1 X50 F100\nN10 M7 K1.5 L2\nN20 G1 X100', []],
+    ['cnc EX-28', 'N0 G1 X50 F100\nN10 M7 K1.5 L2\nN20 G1 X100', []],
     ['letters of M', 'M7 X1', ['notTaken']],
-    ['EX-18', 'N00 G36 D4\nN10 G91\nN20 G1 X5 Y0 F100\nN30 G37 D-1\nN40 G20 L20', []],
-    ['EX-12', 'N000 G01 X10 Y0 F100\nN010 G51 D2 (smooth corners)\nN020 G01 X10 Y20\nN050 G50\n', []],
+    ['cnc EX-18', 'N00 G36 D4\nN10 G91\nN20 G1 X5 Y0 F100\nN30 G37 D-1\nN40 G20 L20', []],
+    ['cnc EX-12', 'N000 G01 X10 Y0 F100\nN010 G51 D2 (smooth corners)\nN020 G01 X10 Y20\nN050 G50\n', []],
     ['a letter that there is none', 'G1 X1\nV5 D1 Y3', []],
   ])('%s: %s', (_, text, expected) => {
     expect(rules(text)).toEqual(expected);
   });
-  it('CNC-13 EX-32 says that an element has no velocity', () => {
+  it('CNC-13 cnc EX-32 says that an element has no velocity', () => {
     expect(rules('N0 G1 X10', { velocity: 0 })).toEqual(['noVelocity']);
     expect(rules('N0 G1 X10 F5\nX20\nG0 X3', { velocity: 0 })).toEqual([]);
     expect(rules('F5\nG1 X10', { velocity: 0 })).toEqual([]);

@@ -1,4 +1,4 @@
-/** Operations on whole programs (cnc.md CNC-85 to CNC-90, EX-03): relations that hold between the paths before and after. */
+/** Operations on whole programs (cnc.md CNC-85 to CNC-90, cnc EX-03): relations that hold between the paths before and after. */
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import { findingsOf } from '../checks';
@@ -105,7 +105,7 @@ const programs = fc.array(block, { maxLength: 14 }).map((lines) => ['G1 X1 Y2 F2
 const starts = fc.tuple(number, number).map(([x, y]) => AT(x, y));
 
 describe('CNC-85 renumber', () => {
-  it('EX-03 numbers 0, 10, 20, 30 after a block without number was inserted', () => {
+  it('cnc EX-03 numbers 0, 10, 20, 30 after a block without number was inserted', () => {
     const lines = [P[0]!, 'G1 X10 Y5', P[1]!, P[2]!];
     expect(done(lines, renumbered(lines))).toEqual([
       'N0 G1 X10 Y0 F10',
@@ -129,7 +129,7 @@ describe('CNC-85 renumber', () => {
 });
 
 describe('CNC-86 move', () => {
-  it('EX-03 inserts a positioning and moves the ends', () => {
+  it('cnc EX-03 inserts a positioning and moves the ends', () => {
     const lines = done(P, movedProgram(P, ORIGIN, AT(5), 100));
     expect(lines[0]).toBe('G0 X5 Y0');
     expect(ends(lines)).toEqual([
@@ -168,7 +168,7 @@ describe('CNC-86 move', () => {
 });
 
 describe('CNC-87 rotate', () => {
-  it('EX-03 by 90 degrees', () => {
+  it('cnc EX-03 by 90 degrees', () => {
     expect(ends(done(P, rotatedProgram(P, ORIGIN, 90)))).toEqual([
       [0, 10],
       [-10, 10],
@@ -198,7 +198,7 @@ describe('CNC-87 rotate', () => {
 });
 
 describe('CNC-88 stretch', () => {
-  it('EX-03 by 2', () => {
+  it('cnc EX-03 by 2', () => {
     const lines = done(P, stretchedProgram(P, ORIGIN, 2, false));
     expect(lines).toEqual(['N0 G1 X20 Y0 F10', 'N10 G1 X20 Y20', 'N20 G3 X0 Y40 R20']);
   });
@@ -227,7 +227,7 @@ describe('CNC-88 stretch', () => {
 });
 
 describe('CNC-89 reverse', () => {
-  it('EX-03 begins at the end and turns arcs', () => {
+  it('cnc EX-03 begins at the end and turns arcs', () => {
     expect(done(P, reversedProgram(P, ORIGIN, DEFAULTS))).toEqual([
       'N0 G92 X0 Y20',
       'N10 G2 X10 Y10 R10 F10',
