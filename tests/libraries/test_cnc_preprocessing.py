@@ -1,4 +1,4 @@
-"""SM3_CNC: worked examples of the preprocessing blocks. Spec cnc_runtime 5: cnc_runtime EX-10 and the next."""
+"""SM3_CNC: worked examples of the preprocessing blocks. Spec cnc_runtime 5: cnc_runtime EX-10 and on."""
 
 from __future__ import annotations
 
