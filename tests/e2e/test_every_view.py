@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator, expect
 
-from . import debugger_dialogs as debugger_dialogs  # its tour
+from . import cnc_dialogs as cnc_dialogs  # its tour
+from . import debugger_dialogs as debugger_dialogs
 from . import motion_dialogs as motion_dialogs  # its tours
 from . import recipe_dialogs as recipe_dialogs  # its tour
 from . import trace_dialogs as trace_dialogs

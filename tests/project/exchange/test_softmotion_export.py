@@ -14,7 +14,7 @@ from tappet.project.exchange.report import ImportReport
 from tappet.project.model import Project, ProjectObject
 
 SAMPLE = Path(__file__).parent / "samples" / "softmotion.xml"
-OF_DRIVES = ("SM3_CNC", "SM3_Drive_Virtual")
+OF_DRIVES = ("SM3_Drive_Virtual",)
 
 
 def _imported() -> tuple[Project, ImportReport]:

@@ -1,0 +1,46 @@
+"""Tour of the dialogs of CNC programs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from playwright.sync_api import expect
+
+from .api import example, fetch
+from .conftest import Server
+from .every_dialog import tour
+from .ui import Ui
+from .workbench import open_object, tree_item
+
+TITLES = {
+    "cnc.move": "cnc.moveTitle",
+    "cnc.rotate": "cnc.rotateTitle",
+    "cnc.stretch": "cnc.stretchTitle",
+    "cnc.array": "cnc.arrayTitle",
+    "cnc.import": "cnc.importTitle",
+    "cnc.variables": "cnc.offlineValues",
+    "cnc.properties": "cnc.propertiesOf",
+}
+"""Commands of the CNC menu that ask for something, and the titles of their dialogs."""
+
+
+@tour(*TITLES.values())
+def cnc(ui: Ui, server: Server) -> Iterator[str]:
+    """What the operations of a program ask for, its properties, and the values of its variables."""
+    page = ui.page
+    project = example(page, server)
+    objects = fetch(page, server, "GET", f"{project}/objects")
+    application = next(one for one in objects if one["kind"] == "application")
+    data = {"implementation": "N0 G1 X10 Y0 F100\nN10 G1 X20\n"}
+    program = {"kind": "cnc", "name": "ContourTour", "parent_id": application["id"], "data": data}
+    own = fetch(page, server, "POST", f"{project}/objects", data=program)["id"]
+    try:
+        expect(tree_item(page, "ContourTour")).to_be_visible()
+        open_object(page, "ContourTour")
+        for command, title in TITLES.items():
+            ui.button("cnc.menu", ui.panel()).click()
+            page.get_by_role("menuitem", name=ui.name(command)).click()
+            yield title
+            page.keyboard.press("Escape")
+    finally:
+        fetch(page, server, "DELETE", f"{project}/objects/{own}")
