@@ -38,7 +38,9 @@ def cnc(ui: Ui, server: Server) -> Iterator[str]:
         expect(tree_item(page, "ContourTour")).to_be_visible()
         open_object(page, "ContourTour")
         for command, title in TITLES.items():
-            ui.button("cnc.menu", ui.panel()).click()
+            menu = ui.button("cnc.menu", ui.panel())
+            menu.focus()
+            menu.click()
             page.get_by_role("menuitem", name=ui.name(command)).click()
             yield title
             page.keyboard.press("Escape")
