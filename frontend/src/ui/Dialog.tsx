@@ -99,7 +99,9 @@ function focusFirstField(event: Event): void {
   const dialog = event.currentTarget as HTMLElement | null;
   const target =
     dialog?.querySelector<HTMLElement>('[data-autofocus]') ??
-    dialog?.querySelector<HTMLElement>(`.${styles.body} :is(input:not([hidden]), [role="combobox"], [role="grid"], textarea)`) ??
+    dialog?.querySelector<HTMLElement>(
+      `.${styles.body} :is(input:not([hidden]), [role="combobox"], [role="grid"], textarea)`,
+    ) ??
     dialog?.querySelector<HTMLElement>(`.${styles.foot} button:not([aria-disabled]):last-of-type`) ??
     dialog;
   if (!target) return;
