@@ -10,8 +10,13 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from tests.libraries.cnc_paths import AXES, Geo
+from tests.libraries.cnc_paths import AXES, Geo, line, position
 from tests.libraries.st_program import run
+
+LEFT, RIGHT, CORRECTION_OFF = 2, 4, 1
+SMOOTH, ROUND, CORNERS_OFF = 16, 32, 8
+LOOPS, LOOPS_OFF = 128, 64
+"""Bits of byInternMark: where correction, corners and loop avoidance begin and end."""
 
 OBJECTS_IN = 24
 OBJECTS_OUT = 120
@@ -222,3 +227,29 @@ def turn(first: Geo, second: Geo) -> float:
     """Angle between the end of an object and the start of the next [deg]."""
     a, b = first.slope(1.0), second.slope(0.0)
     return math.degrees(math.atan2(float(np.linalg.norm(np.cross(a, b))), float(a @ b)))
+
+
+def polyline(*points: tuple[float, ...], marks: dict[int, int] | None = None, **members: float) -> list[Geo]:
+    """Lines from point to point; marks are byInternMark by the number of the line."""
+    given = {"dVel": 100.0, "dVelEnd": 100.0} | members
+    return [
+        line(position(*first), position(*second), byInternMark=(marks or {}).get(n, 0), **given)
+        for n, (first, second) in enumerate(pairwise(points))
+    ]
+
+
+def shape(result: Result) -> list[tuple[int, tuple[float, ...], tuple[float, ...]]]:
+    assert result.error == 0
+    assert gaps(result.objects) < 1e-9
+    return [
+        (geo.kind, tuple(geo.start[:2].round(9) + 0.0), tuple(geo.end[:2].round(9) + 0.0))
+        for geo in result.objects
+    ]
+
+
+def switches(geo: Geo) -> dict[int, float]:
+    return {
+        int(geo.member(f"iHelpID[{n}]")): geo.member(f"dHelpPos[{n}]")
+        for n in range(3)
+        if geo.member(f"iHelpID[{n}]")
+    }
