@@ -47,7 +47,7 @@ FOR n := 0 TO {SAMPLES - 1} DO
     pi.wAuxData := 0;
     PathPoint(ADR(geo), dS, pi);
     aU[n] := ParameterAt(ADR(geo), dS);
-    aCurvature[n] := PathCurvature(ADR(geo), dS);
+    aCurvature[n] := CurvatureAt(ADR(geo), ParameterAt(ADR(geo), dS));
     v := PathTangent(ADR(geo), dS);
     aTangents[3 * n] := v.dX;
     aTangents[3 * n + 1] := v.dY;

@@ -24,6 +24,7 @@ _TOKEN = re.compile(
 _NAME = re.compile(
     r"[A-Za-z_][A-Za-z0-9_]*(?:\[[0-9, ]+\])?(?:\.[A-Za-z_][A-Za-z0-9_]*(?:\[[0-9, ]+\])?)*", re.ASCII
 )
+_EXPRESSION = re.compile(r"\{[^}]*\}?|#\w*", re.ASCII)
 _INTEGERS = frozenset("GMNH")
 _LARGEST = 2147483647.0
 """Values beyond are refused by the decoder."""
@@ -121,7 +122,7 @@ class _LineReader:
             self._say(column, end - column, "The comment has no ')'")
             return end
         if character in "#{":
-            match = re.compile(r"\{[^}]*\}?|#\w*", re.ASCII).match(self.text, column)
+            match = _EXPRESSION.match(self.text, column)
             stop = match.end() if match else column + 1
             message = (
                 "Local variables, expressions and subprograms are not supported; write a number or $name$"
@@ -138,14 +139,14 @@ class _LineReader:
 
 
 def read_lines(texts: Iterable[str]) -> Iterator[Line]:
-    """The lines of a program, one by one. A header line `% name` is an empty line here."""
+    """The lines of a program, one by one."""
     before = True
     for place, text in enumerate(texts):
         text = text.rstrip("\r\n")
         stripped = text.lstrip("\ufeff \t")
         if before and stripped.startswith("%"):
             before = False
-            yield Line(place)
+            yield Line(place, header=stripped[1:].strip())
             continue
         line = _LineReader(text.replace("\ufeff", " ", 1) if place == 0 else text, place).line()
         before = before and line.is_empty and not line.problems
@@ -154,17 +155,7 @@ def read_lines(texts: Iterable[str]) -> Iterator[Line]:
 
 def parse(text: str) -> Program:
     """A whole program."""
-    texts = text.split("\n")
-    lines = tuple(read_lines(texts))
-    name = ""
-    for line, content in zip(lines, texts, strict=True):
-        stripped = content.strip("\ufeff \t\r")
-        if stripped.startswith("%") and line.is_empty and not line.problems:
-            name = stripped[1:].strip()
-            break
-        if not line.is_empty or line.problems:
-            break
-    return Program(name, lines, tuple(problem for line in lines for problem in line.problems))
+    return Program(tuple(read_lines(text.split("\n"))))
 
 
 def decode(data: bytes) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 Severity = Literal["error", "warning"]
@@ -50,10 +50,12 @@ class Line:
     """Without N."""
     comments: tuple[str, ...] = ()
     problems: tuple[Problem, ...] = ()
+    header: str | None = None
+    """Of the header line `% name`: the name of the program. Spec GC-01."""
 
     @property
     def is_empty(self) -> bool:
-        """Nothing but comments."""
+        """Nothing but comments, or the header line."""
         return not (self.words or self.suppressed or self.number is not None)
 
 
@@ -61,9 +63,15 @@ class Line:
 class Program:
     """A program as it was read."""
 
-    name: str = ""
-    """Of the header line `% name`. Spec GC-01."""
     lines: tuple[Line, ...] = ()
     """Empty ones too: the line at place n of the text is `lines[n]`."""
-    problems: tuple[Problem, ...] = field(default=())
-    """Of all lines, in the order of the text."""
+
+    @property
+    def name(self) -> str:
+        """Of the header line; empty where there is none."""
+        return next((line.header for line in self.lines if line.header is not None), "")
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """Of all lines, in the order of the text."""
+        return tuple(problem for line in self.lines for problem in line.problems)

@@ -23,6 +23,8 @@ def word_text(word: Word) -> str:
 
 def line_text(line: Line) -> str:
     """A line, comments behind it."""
+    if line.header is not None:
+        return f"% {line.header}"
     parts = [f"N{line.number}"] if line.number is not None else []
     parts += [word_text(word) for word in line.words]
     parts += [f"({comment})" if ")" not in comment else f"//{comment}" for comment in line.comments]
@@ -30,15 +32,5 @@ def line_text(line: Line) -> str:
 
 
 def program_text(program: Program) -> str:
-    """A program; its header line in front, if it has a name."""
-    header = f"% {program.name}"
-    lines = [line_text(line) for line in program.lines]
-    if program.name:
-        place = next(
-            (index for index, line in enumerate(program.lines) if line.is_empty and not line.comments), None
-        )
-        if place == 0:
-            lines[0] = header
-        else:
-            lines.insert(0, header)
-    return "\n".join(lines)
+    """A program."""
+    return "\n".join(line_text(line) for line in program.lines)

@@ -2,7 +2,6 @@
 import { wordOf, type Block } from './line';
 
 export const AXES = 'XYZABCPQUVW';
-export const AXIS_COUNT = AXES.length;
 const LIMITS = [...'ZABCPQUVW'].flatMap((axis) => [`F${axis}`, `E${axis}`]);
 /** Values that hold until another one is given (GC-12). */
 export const RATES: readonly string[] = ['F', 'E', 'FF', 'EF', ...LIMITS, 'S'];
