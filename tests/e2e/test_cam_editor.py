@@ -12,7 +12,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from .api import fetch
 from .conftest import Server
-from .workbench import objects_stored, open_object, open_project
+from .workbench import objects_stored, open_new_object
 
 pytestmark = pytest.mark.e2e
 
@@ -58,18 +58,8 @@ class CamPage:
 
 @pytest.fixture
 def cam(page: Page, server: Server) -> CamPage:
-    made = fetch(page, server, "POST", "/projects", data={"name": PROJECT})
-    path = f"/projects/{made['id']}"
-    objects = fetch(page, server, "GET", f"{path}/objects")
-    application = next(item for item in objects if item["kind"] == "application")
-    item = fetch(
-        page, server, "POST", f"{path}/objects",
-        data={"kind": "cam", "name": "Cam", "parent_id": application["id"]},
-    )  # fmt: skip
-    page.reload()
-    open_project(page, PROJECT)
-    open_object(page, "Cam")
-    found = CamPage(page, server, path, item["id"])
+    path, cam_id = open_new_object(page, server, PROJECT, "cam", "Cam")
+    found = CamPage(page, server, path, cam_id)
     expect(found.graph("y").locator("path[data-curve]")).to_have_count(3)
     return found
 

@@ -10,7 +10,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from .api import fetch
 from .conftest import Server
-from .workbench import objects_stored, open_object, open_project
+from .workbench import objects_stored, open_new_object
 
 pytestmark = pytest.mark.e2e
 
@@ -39,19 +39,9 @@ def lines(page: Page) -> Locator:
 @pytest.fixture
 def program(page: Page, server: Server) -> tuple[str, str]:
     """A project with a new CNC program, which is open; the path of the project and the id of the object."""
-    made = fetch(page, server, "POST", "/projects", data={"name": PROJECT})
-    path = f"/projects/{made['id']}"
-    objects = fetch(page, server, "GET", f"{path}/objects")
-    application = next(item for item in objects if item["kind"] == "application")
-    item = fetch(
-        page, server, "POST", f"{path}/objects",
-        data={"kind": "cnc", "name": "Contour", "parent_id": application["id"]},
-    )  # fmt: skip
-    page.reload()
-    open_project(page, PROJECT)
-    open_object(page, "Contour")
+    made = open_new_object(page, server, PROJECT, "cnc", "Contour")
     expect(lines(page).first).to_have_text(re.compile("N0.G0.X0.Y0.F100"))
-    return path, str(item["id"])
+    return made
 
 
 def test_text_and_table_are_one_program(page: Page, server: Server, program: tuple[str, str]) -> None:

@@ -10,6 +10,9 @@ from urllib.parse import urlsplit
 
 from playwright.sync_api import Locator, Page, expect
 
+from .api import fetch
+from .conftest import Server
+
 
 def open_project(page: Page, name: str = "Bottling line") -> None:
     page.locator("main > section").get_by_text(
@@ -25,6 +28,20 @@ def tree_item(page: Page, name: str) -> Locator:
 def open_object(page: Page, name: str) -> None:
     tree_item(page, name).dblclick()
     expect(page.locator(".dv-tab").filter(has_text=name).first).to_be_visible()
+
+
+def open_new_object(page: Page, server: Server, project: str, kind: str, name: str) -> tuple[str, str]:
+    """An object of the application of a new project, opened; the path of the project and its id."""
+    made = fetch(page, server, "POST", "/projects", data={"name": project})
+    path = f"/projects/{made['id']}"
+    objects = fetch(page, server, "GET", f"{path}/objects")
+    application = next(item for item in objects if item["kind"] == "application")
+    data = {"kind": kind, "name": name, "parent_id": application["id"]}
+    item = fetch(page, server, "POST", f"{path}/objects", data=data)
+    page.reload()
+    open_project(page, project)
+    open_object(page, name)
+    return path, str(item["id"])
 
 
 def objects_stored(page: Page) -> AbstractContextManager[Any]:

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 
 import pytest
+from file_programs import FileProgram
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from library_programs import compiled
 
 from tappet.cnc.letters import ADDRESSES, END_OF_BLOCK, END_OF_PROGRAM, REFUSED, SKIP
 from tappet.cnc.parser import decode, parse
 from tappet.cnc.word_list import CodeWord, code_words
-from tappet.codegen.package import CodePackage
-from tappet.runtime.local import LocalRuntime
 
 WORDS = 500
 PROGRAM = f"""PROGRAM PLC_PRG
@@ -73,24 +68,8 @@ END_PROGRAM
 """
 
 
-@cache
-def _package() -> CodePackage:
-    return compiled(PROGRAM, "SM3_Basic", "SM3_CNC")
-
-
-class Reader:
-    """The program, with the files of its runtime."""
-
-    def __init__(self, runtime: LocalRuntime, folder: Path) -> None:
-        self.runtime = runtime
-        self.folder = folder / "files"
-        self.folder.mkdir(exist_ok=True)
-
-    def literal(self, name: str) -> str:
-        return self.runtime.literal(f"PLC_PRG.{name}")
-
-    def set(self, **values: float | bool | str) -> None:
-        self.runtime.write_all({f"PLC_PRG.{name}": value for name, value in values.items()})
+class Reader(FileProgram):
+    text = PROGRAM
 
     def run(self, content: str | bytes, name: str = "part.cnc", cycles: int = 2000) -> tuple[str, str]:
         """Reads and decodes a file; the errors of both blocks."""
@@ -112,19 +91,13 @@ class Reader:
         return self.literal("rf.ErrorID"), self.literal("dec.wErrorID")
 
 
-@contextmanager
-def reader(folder: Path) -> Iterator[Reader]:
-    with LocalRuntime(_package(), folder=folder) as runtime:
-        yield Reader(runtime, folder)
-
-
 DONE = ("SMC_NO_ERROR", "SMC_NO_ERROR")
 
 
 def test_a_file_longer_than_the_buffer(tmp_path: Path) -> None:
     """Spec CNCR-30: the buffer of 20 words is filled while the decoder takes words."""
     text = "% Long part\n" + "".join(f"N{n} G1 X{n} Y{n % 7} (piece {n})\r\n" for n in range(1, 1001))
-    with reader(tmp_path) as program:
+    with Reader.running(tmp_path) as program:
         defaults(program)
         assert program.run(text) == DONE
         assert program.literal("nTaken") == "1000"
@@ -136,7 +109,7 @@ def test_a_file_longer_than_the_buffer(tmp_path: Path) -> None:
 
 def test_defaults(tmp_path: Path) -> None:
     """Spec CNCR-30: where the file has no F and E words; 3D mode."""
-    with reader(tmp_path) as program:
+    with Reader.running(tmp_path) as program:
         for pin, value in {
             "fDefaultVel": 50.0, "fDefaultAccel": 60.0, "fDefaultDecel": 70.0, "fDefaultVelFF": 500.0,
             "fDefaultAccelFF": 600.0, "fDefaultDecelFF": 700.0, "b3DMode": True,
@@ -162,7 +135,7 @@ def defaults(program: Reader) -> None:
 def test_variables(tmp_path: Path) -> None:
     """Spec cnc_runtime EX-04, cnc EX-15, CNCR-31, VAR-03: by a list; an unknown one is an error."""
     text = "N0 G$g_byCommand$ X$g_rTestX$"
-    with reader(tmp_path) as program:
+    with Reader.running(tmp_path) as program:
         defaults(program)
         program.set(xVariables=True)
         assert program.run(text) == DONE
@@ -185,7 +158,7 @@ def test_variables(tmp_path: Path) -> None:
 
 def test_errors(tmp_path: Path) -> None:
     """Spec cnc 13: 2000 to 2002, and 1204 of what is no word."""
-    with reader(tmp_path) as program:
+    with Reader.running(tmp_path) as program:
         defaults(program)
         assert program.run("G1 X1", name="other.cnc")[0] == "SMC_RNCF_FILE_DOESNT_EXIST"
         program.set(nPointer=0)
@@ -208,7 +181,7 @@ def test_jumps_read_the_file_again(tmp_path: Path) -> None:
     """Spec CNCR-37, GEO-19: before the end of the file and behind it."""
     filler = "(" + "x" * 3000 + ")\n"
     text = f"N1 G36 D3\nN2 G91\nN3 G1 X1\n{filler * 3}N4 G37 D-1\nN5 G20 L3\n{filler * 3}N6 G1 X10"
-    with reader(tmp_path) as program:
+    with Reader.running(tmp_path) as program:
         defaults(program)
         assert program.run(text) == DONE
         assert program.literal("nTaken") == "4"
@@ -273,7 +246,7 @@ def _code(address: str) -> int:
 def test_the_lexer_reads_what_the_parser_reads(tmp_path: Path, texts: list[str]) -> None:
     """Spec GC-01 to GC-04, GC-09, GC-10, GC-13: words, values, places of lines and of what is refused."""
     text = decode("\n".join(texts).encode())
-    with reader(tmp_path) as program:
+    with Reader.running(tmp_path) as program:
         program.set(nWords=WORDS, xDecode=False)
         assert program.run(text)[0] == "SMC_NO_ERROR"
         found, expected = read_words(program), [(word.letter, word.value) for word in expected_words(text)]

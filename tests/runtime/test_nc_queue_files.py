@@ -3,16 +3,11 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
-from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 
-from library_programs import compiled
+from file_programs import FileProgram
 
 from tappet.cnc.queue_file import FIELDS, queue_text
-from tappet.codegen.package import CodePackage
-from tappet.runtime.local import LocalRuntime
 
 
 def _same() -> str:
@@ -57,24 +52,8 @@ END_PROGRAM
 """
 
 
-@cache
-def _package() -> CodePackage:
-    return compiled(PROGRAM, "SM3_Basic", "SM3_CNC")
-
-
-class Queue:
-    """The program, with the files of its runtime."""
-
-    def __init__(self, runtime: LocalRuntime, folder: Path) -> None:
-        self.runtime = runtime
-        self.folder = folder / "files"
-        self.folder.mkdir(exist_ok=True)
-
-    def literal(self, name: str) -> str:
-        return self.runtime.literal(f"PLC_PRG.{name}")
-
-    def set(self, **values: float | bool) -> None:
-        self.runtime.write_all({f"PLC_PRG.{name}": value for name, value in values.items()})
+class Queue(FileProgram):
+    text = PROGRAM
 
     def run(self, text: str, name: str = "part.queue", cycles: int = 400) -> str:
         """Reads a file to its end; the error."""
@@ -91,12 +70,6 @@ class Queue:
         return self.literal("rq.ErrorID")
 
 
-@contextmanager
-def queue(folder: Path) -> Iterator[Queue]:
-    with LocalRuntime(_package(), folder=folder) as runtime:
-        yield Queue(runtime, folder)
-
-
 def geo(seed: int) -> dict[str, float]:
     """An object with a number of its own in every member."""
     values = random.Random(seed)
@@ -111,7 +84,7 @@ def geo(seed: int) -> dict[str, float]:
 def test_objects_come_back(tmp_path: Path) -> None:
     """Spec CNCR-32: every member to the last bit; more objects than the buffer has places for."""
     objects = [geo(n) for n in range(1, 41)]
-    with queue(tmp_path) as program:
+    with Queue.running(tmp_path) as program:
         assert program.run(queue_text("Part", objects)) == "SMC_NO_ERROR"
         assert program.literal("rq.bDone") == "TRUE"
         assert program.literal("rq.iObjectsRead") == program.literal("nTaken") == "40"
@@ -124,7 +97,7 @@ def test_objects_come_back(tmp_path: Path) -> None:
 
 def test_waits_for_room(tmp_path: Path) -> None:
     """The block goes on when the consumer has taken objects."""
-    with queue(tmp_path) as program:
+    with Queue.running(tmp_path) as program:
         program.set(xTake=False)
         program.run(queue_text("Part", [geo(n) for n in range(1, 21)]), cycles=20)
         assert (program.literal("rq.iObjectsRead"), program.literal("rq.bBusy")) == ("5", "TRUE")
@@ -136,7 +109,7 @@ def test_waits_for_room(tmp_path: Path) -> None:
 def test_errors(tmp_path: Path) -> None:
     """Spec cnc 13: 2050 to 2053."""
     good = queue_text("Part", [geo(1), geo(2)])
-    with queue(tmp_path) as program:
+    with Queue.running(tmp_path) as program:
         assert program.run(good, name="other") == "SMC_RNCQ_FILE_DOESNT_EXIST"
         lines = good.splitlines()
         for bad in (

@@ -12,6 +12,7 @@ from tappet.cnc.words import Line, Problem, Severity, Word
 
 _VARIABLE = -1
 """The travel command, where a variable says it."""
+_NO_PLACE = "The switch point has no place; write O (share) or L (distance) behind it"
 
 
 class _Checks:
@@ -111,11 +112,7 @@ class _Checks:
         for word in line.words:
             if word.address == "H":
                 if open_switch is not None:
-                    yield _at(
-                        line,
-                        open_switch,
-                        "The switch point has no place; write O (share) or L (distance) behind it",
-                    )
+                    yield _at(line, open_switch, _NO_PLACE)
                     return
                 open_switch = word
                 count += 1
@@ -127,9 +124,7 @@ class _Checks:
             elif word.address in ("L", "O"):
                 open_switch = None
         if open_switch is not None:
-            yield _at(
-                line, open_switch, "The switch point has no place; write O (share) or L (distance) behind it"
-            )
+            yield _at(line, open_switch, _NO_PLACE)
 
     def targets(self) -> Iterator[Problem]:
         """Jumps to blocks that are not there. Spec 1203."""
