@@ -17,6 +17,12 @@ describe('durations', () => {
     ]);
   });
 
+  it('have a limit for every unit but the first, and a fraction only at the end (LTYP-33)', () => {
+    expect(timeLiteral('t#90m')).toBe(5400e9);
+    expect(timeLiteral('t#1h59m59.5s')).toBe(7199.5e9);
+    expect(['t#1h60m', 't#1d24h', 't#1.5h30m', 't#1s1000ms'].filter((text) => timeLiteral(text) !== null)).toEqual([]);
+  });
+
   it('are written with units from large to small', () => {
     expect([0, 1, 1500e6, 90e9, -250e3, 90061e9].map(durationText)).toEqual([
       'T#0s',

@@ -1,4 +1,5 @@
 /** The values of IEC 61131-3 literals, exact, as the compiler reads them (LTYP-30 .. LTYP-40). */
+import { exactDuration } from '@/iec/duration';
 import { elementaryNamed, holds, LREAL, REAL, rounded, type Elementary, type Scalar } from './types';
 
 export interface Literal {
@@ -66,37 +67,13 @@ function typedNumber(name: string, body: string): Literal | null {
   return typeof value === 'bigint' && holds(type, value) ? { type, value } : null;
 }
 
-/** Nanoseconds, and the most of a unit that is not the first one (LTYP-33). */
-const UNITS: readonly (readonly [string, bigint, bigint])[] = [
-  ['d', 86_400_000_000_000n, LARGEST],
-  ['h', 3_600_000_000_000n, 23n],
-  ['m', 60_000_000_000n, 59n],
-  ['s', 1_000_000_000n, 59n],
-  ['ms', 1_000_000n, 999n],
-  ['us', 1_000n, 999n],
-  ['ns', 1n, 999n],
-];
-
-/** TIME in ms, LTIME in ns. Units from large to small, each once; only the last number may have a fraction. */
+/** TIME in ms, LTIME in ns. */
 function duration(text: string, type: Elementary): bigint | null {
   const long = type.size === 8;
-  const body = text.replaceAll('_', '').replace(/^\++/, '').toLowerCase();
-  const parts = [...body.matchAll(/(\d+)(?:\.(\d+))?([a-z]+)/g)];
-  if (parts.length === 0 || parts.map((part) => part[0]).join('') !== body) return null;
-  let total = 0n;
-  let scale = 1n;
-  let before = -1;
-  for (const [index, [, digits = '', fraction = '', unit]] of parts.entries()) {
-    const rank = UNITS.findIndex(([name]) => name === unit);
-    if (rank <= before || (!long && rank > 4) || (fraction !== '' && index < parts.length - 1)) return null;
-    const [, length, most] = UNITS[rank]!;
-    if (index > 0 && !(long && unit === 'ns') && BigInt(digits) > most) return null;
-    scale = 10n ** BigInt(fraction.length);
-    total = total * scale + BigInt(digits + fraction) * length;
-    before = rank;
-  }
-  const step = scale * (long ? 1n : 1_000_000n);
-  return total % step === 0n ? total / step : null;
+  const found = exactDuration(text.replace(/^\++/, ''));
+  if (found === null || (!long && /^[un]s$/.test(found.unit))) return null;
+  const step = found.scale * (long ? 1n : 1_000_000n);
+  return found.total % step === 0n ? found.total / step : null;
 }
 
 const DAY = 86_400n;
