@@ -38,7 +38,7 @@ test-all:
 	$(BIN)/python -m pytest tests/e2e $(BROWSERS)
 
 ## fuzz: what reads foreign texts, for SECONDS each; guided by coverage where `pip install atheris` works
-FUZZ    ?= lexer parser checker compiler il plcopen twincat export text folder archive library package frame literal \
+FUZZ    ?= lexer parser checker compiler il plcopen twincat export text folder archive library package frame literal gcode \
            editor messages door-online door-events door-lsp door-view door-wire
 SECONDS ?= 300
 fuzz: $(VENV)/.ready

@@ -90,8 +90,11 @@ def words(text: str) -> list[str]:
     return _WORDS.findall(text)
 
 
-def mutated(r: Random, seeds: list[bytes]) -> bytes:
-    """A seed with some of its words changed, put together with a part of another one, or cut off."""
+def mutated(r: Random, seeds: list[bytes], spice: Sequence[str] = _SPICE) -> bytes:
+    """A seed with some of its words changed, put together with a part of another one, or cut off.
+
+    `spice`: words that may come in.
+    """
     own = words(r.choice(seeds).decode("utf-8", "replace"))
     for _ in range(r.choice((1, 1, 2, 3, 8))):
         at, kind = r.randrange(len(own) + 1), r.randrange(8)
@@ -103,9 +106,9 @@ def mutated(r: Random, seeds: list[bytes]) -> bytes:
         elif kind == 1:
             own[at:at] = own[at:end] * r.choice((1, 2, 30))
         elif kind == 2:
-            own.insert(at, f" {r.choice(_SPICE)} ")
+            own.insert(at, f" {r.choice(spice)} ")
         elif kind == 3 and at < len(own):
-            own[at] = r.choice(_SPICE)
+            own[at] = r.choice(spice)
         elif kind == 4 and at < len(own):
             own[at] = r.choice(own)
         elif kind == 5:

@@ -15,6 +15,7 @@ from random import Random
 import byte_targets
 import door_targets
 import editor_targets
+import gcode_target
 from conversations import spoilt
 from mutations import mutated, mutated_bytes, mutated_values
 
@@ -138,6 +139,7 @@ TARGETS = {
     "package": Target(byte_targets.package, byte_targets.packages, mutated_values),
     "frame": Target(byte_targets.frame, byte_targets.frames, mutated_values),
     "literal": Target(byte_targets.literal, byte_targets.literals),
+    "gcode": Target(gcode_target.gcode, gcode_target.seeds, gcode_target.mutate),
     "editor": Target(editor_targets.editor, _programs),
     "messages": Target(editor_targets.messages, editor_targets.conversations),
     **{

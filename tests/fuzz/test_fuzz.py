@@ -9,7 +9,15 @@ from door_targets import DOORS
 from targets import TARGETS
 
 FEW = 60
-MANY = {"compiler": 1200, "checker": 2400, "il": 2400, "editor": 600, "messages": 600, "archive": 2000}
+MANY = {
+    "compiler": 1200,
+    "checker": 2400,
+    "il": 2400,
+    "editor": 600,
+    "messages": 600,
+    "archive": 2000,
+    "gcode": 1_000_000,
+}
 MANY |= dict.fromkeys(DOORS, 600)
 
 

@@ -43,7 +43,8 @@ class Program:
 
 
 @cache
-def _package(text: str, inside: str = "") -> CodePackage:
+def package(text: str, inside: str = "") -> CodePackage:
+    """A program with all libraries; `inside` a library it also has what is INTERNAL there."""
     libraries = tuple(LibraryReference(name) for name in names() if name != inside)
     options = BuildOptions(libraries=libraries, level=1)
     own = sorted((ROOT / inside).glob("*.st")) if inside else []
@@ -57,7 +58,7 @@ def _package(text: str, inside: str = "") -> CodePackage:
 @contextmanager
 def run(text: str, cycles: int, cycle_ms: float = CYCLE_MS, inside: str = "") -> Iterator[Program]:
     """`text` after so many calls of its programs; `inside` a library it also has what is INTERNAL there."""
-    with loaded(_package(text, inside)) as application:
+    with loaded(package(text, inside)) as application:
         for _ in range(cycles):
             application.cycle()
             application.clock_ns += round(cycle_ms * 1_000_000)

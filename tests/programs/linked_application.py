@@ -141,6 +141,19 @@ define i32 @tappet_task_facts(i32 %number, ptr %facts) {
 define i32 @tappet_application_facts(ptr %facts) {
   ret i32 0
 }
+define i64 @tappet_file_post(i32 %kind, i64 %file, ptr %name, ptr %other, i64 %mode, i64 %count, ptr %data) {
+  ret i64 -1
+}
+define i32 @tappet_file_poll(i64 %ticket, ptr %result, ptr %data, i64 %size) {
+  store i64 -1, ptr %result
+  ret i32 1
+}
+define void @tappet_file_leave(i64 %ticket, i64 %left) {
+  ret void
+}
+define void @tappet_file_abandon(i64 %ticket) {
+  ret void
+}
 define i32 @tappet.guard(ptr %function) returns_twice {
   store ptr @tappet.jump, ptr @tappet.target
   %landed = call i32 @_setjmp(ptr @tappet.jump) returns_twice
@@ -155,7 +168,7 @@ failed:
   ret i32 %short
 }
 """
-"""Fault trampoline, clock and guarded call; one application at a time per copy."""
+"""Fault trampoline, clock and guarded call, no files; one application at a time per copy."""
 SUPPORT_OBJECT = compile_text(SUPPORT, OptimiseOptions(level=1))
 """Made once, before a process for a case is forked."""
 

@@ -26,6 +26,7 @@ _NAME = re.compile(
 )
 _EXPRESSION = re.compile(r"\{[^}]*\}?|#\w*", re.ASCII)
 _INTEGERS = frozenset("GMNH")
+_BLANKS = " \t\r\f\v"
 _LARGEST = 2147483647.0
 """Values beyond are refused by the decoder."""
 
@@ -143,12 +144,14 @@ def read_lines(texts: Iterable[str]) -> Iterator[Line]:
     before = True
     for place, text in enumerate(texts):
         text = text.rstrip("\r\n")
-        stripped = text.lstrip("\ufeff \t")
+        if place == 0 and text.startswith("\ufeff"):
+            text = " " + text[1:]
+        stripped = text.lstrip(_BLANKS)
         if before and stripped.startswith("%"):
             before = False
             yield Line(place, header=stripped[1:].strip())
             continue
-        line = _LineReader(text.replace("\ufeff", " ", 1) if place == 0 else text, place).line()
+        line = _LineReader(text, place).line()
         before = before and line.is_empty and not line.problems
         yield line
 
