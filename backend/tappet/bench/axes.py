@@ -10,17 +10,12 @@ import importlib.util
 import shutil
 import subprocess
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from tappet.bench.native import CProgram, NativeLoop, gcc_version, scratch_directory
+from tappet.bench.program import built, running
 from tappet.bench.report import Report, Row
-from tappet.codegen.build import BuildOptions, BuildSession, LibraryReference, build_application
-from tappet.codegen.package import CodePackage
-from tappet.iec.task import Task
-from tappet.lang.source import Source
-from tappet.runtime.flight import FlightSettings
 from tappet.runtime.local import LocalRuntime
 
 MOTION = Path(__file__).resolve().parent / "motion"
@@ -117,30 +112,6 @@ FOR i := 2 TO {axes} DO
     CamIn[i](Master := Axis[1], Slave := Axis[i], Execute := xGo, CamTableID := Select.CamTableID);
 END_FOR""",
 )
-
-
-@contextmanager
-def running(text: str) -> Iterator[tuple[LocalRuntime, int]]:
-    """The program in the soft PLC, stopped, with the address of its cycle; ValueError if it is wrong."""
-    runtime = LocalRuntime(built(text), flight=FlightSettings(memory=0), start=False)
-    try:
-        application = runtime.plc.application
-        assert application is not None
-        yield runtime, application.code[runtime.package.tasks[0].symbol]
-    finally:
-        runtime.close()
-
-
-def built(text: str) -> CodePackage:
-    """The application of a program; raises ValueError with its first error."""
-    options = BuildOptions(libraries=(LibraryReference("SM3_Basic"),))
-    source = Source(uri="Main.st", text=text, name="Main")
-    result = build_application(
-        [source], [Task("Task", programs=("Main",))], options=options, session=BuildSession()
-    )
-    if result.package is None:
-        raise ValueError(str(next(d for d in result.diagnostics if d.severity == "error")))
-    return result.package
 
 
 def _expect(runtime: LocalRuntime, path: str, state: int) -> None:

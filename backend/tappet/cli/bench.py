@@ -8,7 +8,7 @@ from importlib import import_module
 from tappet.cli.arguments import ArgumentParser
 from tappet.cli.errors import UsageError
 
-BENCHMARKS = ("scan", "axes", "jitter", "load", "build", "editor", "start", "trace")
+BENCHMARKS = ("scan", "axes", "cnc", "jitter", "load", "build", "editor", "start", "trace")
 
 
 def bench_arguments(parser: ArgumentParser) -> None:
