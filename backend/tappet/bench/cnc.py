@@ -6,7 +6,7 @@ measured against: docs/benchmarks.md.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -37,7 +37,7 @@ class Stage:
     own_queue: bool = True
 
 
-PLAN = Stage("SMC_CheckVelocities", "dAngleTol := 10.0", own_queue=False)
+PLAN = ("plan", Stage("SMC_CheckVelocities", "dAngleTol := 10.0", own_queue=False))
 STAGES = {
     "rounding": Stage("SMC_RoundPath", "dRadius := 0.02"),
     "smoothing": Stage("SMC_SmoothPath", "dEdgeDistance := 0.02"),
@@ -45,7 +45,7 @@ STAGES = {
     "loop avoidance": Stage("SMC_AvoidLoop"),
     "limits on arcs": Stage("SMC_LimitCircularVelocity", "dMaxAcc := 1E6"),
 }
-WHOLE = [("rounding", STAGES["rounding"]), ("limits on arcs", STAGES["limits on arcs"]), ("plan", PLAN)]
+WHOLE = [("rounding", STAGES["rounding"]), ("limits on arcs", STAGES["limits on arcs"]), PLAN]
 MODES = ("TRAPEZOID", "SIGMOID", "QUADRATIC")
 MARKS = {"rounding": "52", "smoothing": "51", "tool radius correction": "41", "loop avoidance": "61"}
 """G commands that switch a stage on, in front of the program."""
@@ -200,7 +200,7 @@ def chain(element: str, stages: Sequence[tuple[str, Stage]], lines: int = LINES)
 def passing(
     loop: NativeLoop, element: str, stages: Sequence[tuple[str, Stage]] = (), lines: int = LINES
 ) -> tuple[float, int]:
-    """Nanoseconds of a line of a program on its way through the chain, and how many waited in the last queue at most.
+    """Nanoseconds of a line on its way through the chain, and how many waited in its last queue at most.
 
     Raises ValueError where the program does not come through.
     """
@@ -231,48 +231,64 @@ def _number(runtime: LocalRuntime, path: str) -> float:
 
 
 def queue_bytes(loop: NativeLoop, lines: int) -> int:
-    """Bytes of all variables but the words of the program."""
-    with running(chain("lines", [("plan", PLAN)], lines), LIBRARIES) as (runtime, _):
-        words = 5 * lines + 101
-        return runtime.package.image_size - words * runtime.package.symbols.resolve("Main.aWords[0]").size
+    """Bytes of all variables but the words of the program: the queues, whatever the length of the program."""
+    with running(chain("lines", [PLAN], lines), LIBRARIES) as (runtime, _):
+        return runtime.package.image_size - runtime.package.symbols.resolve("Main.aWords").size
 
 
 def run(only: Sequence[str] = ()) -> Report:
     """All rows, or those of the parts that are named: decode, stages, plan, interpolate, memory."""
     loop = NativeLoop()
     compiler = gcc_version()
-    rows: list[Row] = []
     with scratch_directory() as scratch:
-        lines = CProgram(SOURCES / "lines.c", Path(scratch)) if compiler else None
-        along = CProgram(SOURCES / "along.c", Path(scratch)) if compiler else None
-        in_c = along_in_c = None
-        if lines is not None and along is not None:
-            loop.seconds(lines.cycle, 1)
-            in_c = min(loop.seconds(lines.cycle, 1) for _ in range(ROUNDS)) / LINES * 1e9
-            along_in_c = min(loop.seconds(along.cycle, 1) for _ in range(ROUNDS)) / IPO_CYCLES * 1e9
-        for element in ELEMENTS if not only or "decode" in only else ():
-            rows.append(_passing_row(f"{element} decoded", passing(loop, element)))
-        for name, stage in STAGES.items() if not only or "stages" in only else ():
-            rows.append(_passing_row(f"lines decoded, {name}", passing(loop, "lines", [(name, stage)])))
-        for element in ELEMENTS if not only or "plan" in only else ():
-            found = passing(loop, element, [("plan", PLAN)])
-            rows.append(
-                _passing_row(f"{element} decoded, planned", found, in_c if element == "lines" else None)
-            )
-        if not only or "plan" in only:
-            rows.append(
-                _passing_row("lines decoded, rounded, limited, planned", passing(loop, "lines", WHOLE))
-            )
-        for mode in MODES if not only or "interpolate" in only else ():
-            rows.append(Row(f"interpolation, {mode}", interpolation(loop, mode), along_in_c, "ns"))
-        if not only or "memory" in only:
-            small, large = queue_bytes(loop, 1000), queue_bytes(loop, LINES)
-            note = f"{large / 1024:,.0f} KiB with {LINES:,}"
-            rows.append(Row("variables with 1,000 lines", small / 1024, None, "KiB", note))
+        planned = along = None
+        if compiler:
+            planned = _in_c(loop, CProgram(SOURCES / "lines.c", Path(scratch)), LINES)
+            along = _in_c(loop, CProgram(SOURCES / "along.c", Path(scratch)), IPO_CYCLES)
+        parts: dict[str, Callable[[], list[Row]]] = {
+            "decode": lambda: [_row(loop, f"{element} decoded", element) for element in ELEMENTS],
+            "stages": lambda: [
+                _row(loop, f"lines decoded, {name}", "lines", [(name, stage)])
+                for name, stage in STAGES.items()
+            ],
+            "plan": lambda: [
+                *(
+                    _row(loop, f"{element} decoded, planned", element, [PLAN], planned)
+                    for element in ELEMENTS
+                ),
+                _row(loop, "lines decoded, rounded, limited, planned", "lines", WHOLE, planned),
+            ],
+            "interpolate": lambda: [
+                Row(f"interpolation, {mode}", interpolation(loop, mode), along, "ns", "a cycle in motion")
+                for mode in MODES
+            ],
+            "memory": lambda: [_memory(loop)],
+        }
+        rows = [row for name, part in parts.items() if not only or name in only for row in part()]
     remark = () if compiler else ("gcc is not installed: no baseline",)
-    return Report("cnc", f"lines planned in C, {compiler} -O2" if compiler else "none", rows, BAR, remark)
+    return Report("cnc", f"the same in C, {compiler} -O2" if compiler else "none", rows, BAR, remark)
 
 
-def _passing_row(name: str, found: tuple[float, int], baseline: float | None = None) -> Row:
-    nanoseconds, deepest = found
-    return Row(name, nanoseconds, baseline, "ns", f"{1e9 / nanoseconds:,.0f} a second, {deepest} ahead")
+def _in_c(loop: NativeLoop, program: CProgram, count: int) -> float:
+    """Nanoseconds of one of `count` elements of a cycle in C."""
+    loop.seconds(program.cycle, 1)
+    return min(loop.seconds(program.cycle, 1) for _ in range(ROUNDS)) / count * 1e9
+
+
+def _row(
+    loop: NativeLoop,
+    name: str,
+    element: str,
+    stages: Sequence[tuple[str, Stage]] = (),
+    baseline: float | None = None,
+) -> Row:
+    nanoseconds, deepest = passing(loop, element, stages)
+    note = f"{1e9 / nanoseconds:,.0f} a second, {deepest} ahead"
+    return Row(name, nanoseconds, baseline if element == "lines" else None, "ns", note)
+
+
+def _memory(loop: NativeLoop) -> Row:
+    small, large = queue_bytes(loop, 1000), queue_bytes(loop, LINES)
+    return Row(
+        "variables with 1,000 lines", small / 1024, large / 1024, "KiB", f"baseline: with {LINES:,} lines"
+    )

@@ -26,7 +26,8 @@ static void plan(void)
         struct line *l = at(i);
         double corner = i + 1 < count ? at(i + 1)->cosine : -1.0;
         double limit = corner > 0.98 ? fmin(l->velocity, at(i + 1)->velocity) : 0.0;
-        l->end_velocity = fmin(limit, i + 1 < count ? sqrt(end * end + 2.0 * at(i + 1)->deceleration * at(i + 1)->length) : 0.0);
+        double room = i + 1 < count ? 2.0 * at(i + 1)->deceleration * at(i + 1)->length : 0.0;
+        l->end_velocity = fmin(limit, sqrt(end * end + room));
         end = l->end_velocity;
     }
 }
@@ -50,6 +51,7 @@ void cycle(void)
     double position[12] = {0.0}, target[12] = {0.0}, tangent[3] = {1.0, 0.0, 0.0};
     int motion = 0;
     first = count = 0;
+    result = 0.0;
     for (int i = 0; i < WORDS; i++) {
         switch (words[i].letter) {
         case 'G': motion = words[i].integer; break;
@@ -76,7 +78,7 @@ void cycle(void)
             if (count == ROOM) {
                 plan();
                 while (count > 0) {
-                    result = at(0)->end_velocity;
+                    result += at(0)->end_velocity;
                     first = (first + 1) % ROOM;
                     count--;
                 }
