@@ -38,8 +38,12 @@ ELSIF nStep > 2000 THEN
 ELSE
     nHalf := 7;
 END_IF
+REPEAT
+    nTemp := nTemp + 1;
+UNTIL nTemp > 20
+END_REPEAT
 Instructions();"""
-EXECUTED = [1, 2, 3, 4, 5, 7, 10, 12]
+EXECUTED = [1, 2, 3, 4, 5, 7, 10, 12, 13, 14, 16]
 
 
 @pytest.fixture
@@ -102,6 +106,7 @@ def test_executed_lines_are_tinted_and_have_their_values(flow: Page) -> None:
             assert halved["nHalf"] == halved["nStep"] // 2
         assert shown.get("nHalf", 7) == 7
         assert 0 < values(page, 7).get("nStep", 1) <= 1000
+        assert values(page, 14).get("nTemp", 21) > 20, "as the condition was looked at last"
         return len(seen) > 2
 
     until(page, three_moments)

@@ -180,11 +180,6 @@ class Program:
     def _continue(self, body: Body, depth: int, loops: int) -> Node:
         return ("continue", self._add(depth, "CONTINUE;"))
 
-    def loop_lines(self) -> list[int]:
-        """Lines that a loop passes more often than they are executed: its head, and UNTIL."""
-        words = ("FOR ", "WHILE ", "UNTIL ")
-        return [n for n, text in enumerate(self.lines, start=1) if text.strip().startswith(words)]
-
     # -- run -----------------------------------------------------------------------------------------
 
     def cycle(self) -> list[Event]:

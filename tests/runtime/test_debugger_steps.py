@@ -2,12 +2,13 @@
 
 import itertools
 import random
+from collections import Counter
 
 import pytest
 from debugger_model import Program, steps
-from debugger_programs import halted, line, loaded, spot, step, until, value
+from debugger_programs import at_line, halted, line, loaded, spot, step, until, value
 
-from tappet.runtime.debugger.shapes import BreakpointOrder
+from tappet.runtime.debugger.shapes import BreakpointOrder, Hits
 
 
 def check_program(seed: int) -> None:
@@ -64,6 +65,29 @@ def test_steps_of_many_random_programs(seed: int) -> None:
     check_program(seed)
 
 
+@pytest.mark.parametrize("seed", seeds(20, 5))
+def test_hits_of_random_programs(seed: int) -> None:
+    """A breakpoint at each line counts how often the line is come by, heads of loops at each pass."""
+    program = Program(seed)
+    cycles = [program.cycle() for _ in range(60)]
+    plc = loaded(program.text)
+    never = Hits("equal", 1 << 40)
+    try:
+        numbers = sorted({number for events in cycles for number, _ in events})
+        for number in numbers:
+            assert plc.debugger.add(at_line(number, never)).actual.line == number
+        first = plc.tasks()[0].iec_cycles
+        plc.start()
+        until(lambda: plc.tasks()[0].iec_cycles > first + 3)
+        plc.stop()
+        ran = plc.tasks()[0].iec_cycles - first
+        passed = Counter(number for events in cycles[:ran] for number, _ in events)
+        hits = {b.order.place.line: b.hit_count for b in plc.debugger.state().breakpoints if b.order.place}
+        assert hits == {number: passed[number] for number in numbers}, program.text
+    finally:
+        plc.close()
+
+
 COMMANDS = (
     "continue", "pause", "step_into", "step_over", "step_out", "run_to", "next_statement", "single_cycle",
     "start", "stop", "reset", "add", "remove", "change", "stack", "write", "settings",
@@ -72,8 +96,6 @@ COMMANDS = (
 
 def run_commands(seed: int, count: int) -> None:
     """Commands by chance: each is answered or refused, and the application is there and runs afterwards."""
-    from debugger_programs import at_line
-
     from tappet.runtime.debugger.shapes import Settings
     from tappet.runtime.errors import PlcError
 

@@ -136,8 +136,8 @@ def _declared(pou: PouSymbol) -> list[VarSymbol]:
 
 
 def _heads(pou: PouSymbol) -> dict[tuple[int, int], StatementHead]:
-    """Of each statement and each condition of an ELSIF, by its place: the variables that it names, as its
-    text does; some may have no single value."""
+    """Of each statement and each condition of an ELSIF or UNTIL, by its place: the variables that it names,
+    as its text does; some may have no single value."""
     assert pou.pou is not None
     assert pou.source is not None
     lines = pou.source.text.split("\n")
@@ -150,6 +150,8 @@ def _heads(pou: PouSymbol) -> dict[tuple[int, int], StatementHead]:
         if isinstance(statement, ast.If):
             (first, _), *later = statement.branches
             own, further = list(expressions(first)), [condition for condition, _ in later]
+        elif isinstance(statement, ast.RepeatUntil):
+            own, further = [], [statement.condition]
         begin = min([statement.span.line, *(e.span.line for e in own if e.span != NOWHERE)])
         found[place] = StatementHead((begin + 1, _head_line(statement)), _names(own, lines))
         for condition in further:

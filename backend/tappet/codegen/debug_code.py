@@ -39,7 +39,8 @@ class StatementSite(Struct, frozen=True, array_like=True):
     end_line: int
     column: int
     kind: Literal["statement", "loop", "exit"]
-    """`loop`: a loop looks whether there is another pass; `exit`: the function is left, and nothing halts."""
+    """`loop`: FOR or WHILE looks whether there is another pass, at the place of its head; `exit`: the
+    function is left, and nothing halts."""
     loops: tuple[int, ...] = ()
     """The loops around it, the outermost first; only these can be entered by going to it from elsewhere."""
     names: tuple[str, ...] = ()
@@ -47,6 +48,13 @@ class StatementSite(Struct, frozen=True, array_like=True):
     head: tuple[int, int] = (0, 0)
     """Its lines without those of statements inside it, as `IF condition THEN`: the first and the last one. In
     IL they begin with the rows whose value the statement takes."""
+
+    def is_same_place(self, other: StatementSite) -> bool:
+        """Whether both are of one function's text at the same place: the head of a loop is passed at its
+        begin and before each further pass."""
+        if "exit" in (self.kind, other.kind):
+            return False
+        return (self.line, self.column) == (other.line, other.column)
 
 
 class FrameVariable(Struct, frozen=True, array_like=True):

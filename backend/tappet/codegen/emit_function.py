@@ -326,8 +326,7 @@ class FunctionEmitter(ExpressionEmitter):
         self.start_block(body)
         self._loop_body(s.body, check, done)
         self.start_block(check)
-        if s.line:
-            self.location = self.location_of(s.line)
+        self.location = self.location_of(s.until.line)
         self.condition(s.condition, done, body)
         self.start_block(done)
 

@@ -12,6 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal, NamedTuple
 
+from msgspec import structs
+
 from tappet.codegen import debug_code
 from tappet.codegen.debug_code import HEADER, StatementSite
 from tappet.codegen.emit_function import FunctionEmitter
@@ -88,7 +90,8 @@ class InstrumentedEmitter(FunctionEmitter):
         """Variables that the normal variant keeps in registers during a loop."""
         self._around: list[int] = []
         self._loop_count = 0
-        self._pass_line = 0
+        self._pass: StatementSite | None = None
+        """What the loop that begins passes before each further pass."""
         self._jumps = not function.returns_twice and _statements(function.body) <= MOST_JUMPS
 
     def _text(self, linkage: str) -> list[str]:
@@ -140,14 +143,16 @@ class InstrumentedEmitter(FunctionEmitter):
         place = (s.line, s.column)
         if s.statement and place not in self._halts:  # of what one place stands for, only the first one halts
             self._halts.add(place)
-            end = s.end_line or s.line
-            head = self._heads.get(place, StatementHead((s.line, end), ()))
-            around = tuple(self._around)
-            self._hook(StatementSite(s.line, end, s.column, "statement", around, head.names, head.lines))
+            self._hook(self._site(s))
+
+    def _site(self, s: ir.Line) -> StatementSite:
+        end = s.end_line or s.line
+        head = self._heads.get((s.line, s.column), StatementHead((s.line, end), ()))
+        return StatementSite(s.line, end, s.column, "statement", (), head.names, head.lines)
 
     def _hook(self, site: StatementSite) -> None:
         number = len(self.sites)
-        self.sites.append(site)
+        self.sites.append(structs.replace(site, loops=tuple(self._around)))
         stop, go_on = f"stop{number}", f"go{number}"
         self.start_block(f"site{number}")
         self.out.append(f"store i32 {number}, ptr %frame.site")
@@ -231,29 +236,39 @@ class InstrumentedEmitter(FunctionEmitter):
 
     def _for_(self, s: ir.For) -> None:
         self._store(ir.Store(s.counter, s.start))
-        self._pass_line = s.line
+        self._pass = self._again(s.line)
         self.stepped(s)
 
     def _while_(self, s: ir.While) -> None:
-        self._pass_line = s.line
+        self._pass = self._again(s.line)
         super()._while_(s)
 
     def _repeat(self, s: ir.Repeat) -> None:
-        self._pass_line = s.line
+        self._pass = self._site(s.until)
         super()._repeat(s)
+
+    def _again(self, line: int) -> StatementSite | None:
+        """The head of a loop before a further pass: the place that was passed last. None for a loop that no
+        text has."""
+        if not line:
+            return None
+        head = self.sites[-1] if self.sites else None
+        if head is not None and (head.kind, head.line) == ("statement", line):
+            return structs.replace(head, kind="loop")
+        return StatementSite(line, line, 0, "loop", head=(line, line))
 
     def _loop_body(self, body: list[ir.Stmt], continue_label: str, break_label: str) -> None:
         """A loop passes a hook before each further pass, so that an empty one can be halted, too."""
-        line, before = self._pass_line, self.new_label()
+        site, before = self._pass, self.new_label()
         self._loop_count += 1
         self._around.append(self._loop_count)
         self.loops.append((before, break_label))
         self.statements(body)
         self.loops.pop()
         self.start_block(before)
-        if line:
-            self.location = self.location_of(line)
-            self._hook(StatementSite(line, line, 0, "loop", tuple(self._around)))
+        if site is not None:
+            self.location = self.location_of(site.line)
+            self._hook(site)
         self._around.pop()
         self.jump(continue_label)
 

@@ -72,8 +72,13 @@ def _if(b: Body, s: ast.If) -> None:
         if number == 0:
             b.emit(ir.If(test, then, otherwise))
         else:
-            span = condition.span
-            otherwise = [ir.Line(span[0] + 1, span[1], True, span[2] + 1), ir.If(test, then, otherwise)]
+            otherwise = [_place_of(condition), ir.If(test, then, otherwise)]
+
+
+def _place_of(condition: ast.Expr) -> ir.Line:
+    """Of a condition that is looked at apart from the statement that it belongs to."""
+    span = condition.span
+    return ir.Line(span[0] + 1, span[1], True, span[2] + 1)
 
 
 def _case(b: Body, s: ast.Case) -> None:
@@ -162,7 +167,7 @@ def _while(b: Body, s: ast.While) -> None:
 
 
 def _repeat(b: Body, s: ast.RepeatUntil) -> None:
-    b.emit(ir.Repeat(_loop_body(b, s.body), b.value(s.condition), s.condition.span[0] + 1))
+    b.emit(ir.Repeat(_loop_body(b, s.body), b.value(s.condition), _place_of(s.condition)))
 
 
 def _exit(b: Body, s: ast.Exit) -> None:

@@ -16,8 +16,8 @@ class Line(Stmt):
     line: int
     column: int = 0
     statement: bool = False
-    """A statement of the body or the condition of an ELSIF begins here: where the instrumented variant may
-    halt."""
+    """A statement of the body or the condition of an ELSIF or UNTIL begins here: where the instrumented
+    variant may halt."""
     end_line: int = 0
     """Last line of that statement."""
 
@@ -138,7 +138,8 @@ class Repeat(Stmt):
 
     body: list[Stmt]
     condition: Expr
-    line: int = 0
+    until: Line
+    """Place of the condition."""
 
 
 @dataclass(eq=False, slots=True)

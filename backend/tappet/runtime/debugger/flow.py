@@ -26,7 +26,8 @@ _TRIES = 100
 class _Slot:
     """A watched statement."""
 
-    number: int
+    numbers: list[int]
+    """Where it is passed: the head of a loop before each further pass, too."""
     owner: str
     """Its object."""
     named: list[tuple[str, NativeExpression]]
@@ -43,6 +44,7 @@ class Flow:
         """Statements, and ends of functions, where the executive has to be called."""
         maps = variant.application.package.source_maps
         for first, function in zip(variant.firsts, variant.functions, strict=True):
+            known: dict[tuple[int, int], _Slot] = {}
             scope = conditions.FrameScope(variant, function)
             for number, site in enumerate(function.sites):
                 spot = code_spot(maps, function, site)
@@ -50,10 +52,15 @@ class Flow:
                 if owner not in objects or len(self._slots) >= MOST_STATEMENTS:
                     continue
                 self.armed.append(first + number)
-                if site.kind != "exit":
+                if site.kind == "exit":
+                    continue
+                place = site.line, site.column
+                if place not in known:
                     named = [(name, self._compiled(name, scope)) for name in site.names]
-                    known = [(name, found) for name, found in named if found is not None]
-                    self._slots.append(_Slot(first + number, owner, known))
+                    values = [(name, found) for name, found in named if found is not None]
+                    known[place] = _Slot([], owner, values)
+                    self._slots.append(known[place])
+                known[place].numbers.append(first + number)
         self._fill()
         self.tables = [_Table(self, variant, task) for task in range(len(variant.tasks))]
         """By task."""
@@ -72,7 +79,8 @@ class Flow:
         numbers, counts = self.numbers.view().cast("i"), self.counts.view().cast("q")
         pointers = self.pointers.view().cast("Q")
         for at, slot in enumerate(self._slots):
-            numbers[slot.number] = at + 1
+            for number in slot.numbers:
+                numbers[number] = at + 1
             counts[at] = len(slot.named)
             addresses = array("Q", [expression.address for _, expression in slot.named])
             pointers[at * 8 : at * 8 + len(slot.named)] = memoryview(addresses)
@@ -96,8 +104,8 @@ class Flow:
         found = []
         for at, slot in enumerate(self._slots):
             count, valid, *results = memoryview(data[at * size : (at + 1) * size]).cast("q")
-            function, site = self._variant.site(slot.number)
-            if slot.owner != owner or not count or site.kind != "statement":
+            function, site = self._variant.site(slot.numbers[0])
+            if slot.owner != owner or not count:
                 continue
             values = [
                 FlowValue(name, conditions.literal(self._variant.code.types, expression.program, raw))

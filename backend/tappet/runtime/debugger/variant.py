@@ -116,14 +116,17 @@ class Variant:
 
     def sites_at(self, uri: str, line: int) -> list[int]:
         """Numbers of the statements where a breakpoint at a line of a text halts: those that begin there, or
-        else the next ones of the same body. Several where one text makes several functions."""
+        else the next ones of the same body. Several where one text makes several functions, and for the head
+        of a loop, which each pass comes by."""
         found: dict[int, list[int]] = {}
         for first, function in zip(self.firsts, self.functions, strict=True):
             if function.uri.upper() != uri.upper() or not function.sites:
                 continue
             at = _next_site(function.sites, line)
             if at is not None:
-                found.setdefault(function.sites[at].line, []).append(first + at)
+                site = function.sites[at]
+                same = (n for n, s in enumerate(function.sites) if s.is_same_place(site))
+                found.setdefault(site.line, []).extend(first + number for number in same)
         return min(found.items(), default=(0, []))[1]
 
     # -- tasks ---------------------------------------------------------------------------------------
@@ -179,8 +182,8 @@ def _next_site(sites: tuple[StatementSite, ...], line: int) -> int | None:
     heads = [(s.line, -n) for n, s in possible if s.line <= line <= s.head[1]]
     if heads:
         return -max(heads)[1]
-    later = [(s.line, s.kind != "statement", n) for n, s in possible if s.line >= line]
+    later = [(s.line, n) for n, s in possible if s.line >= line]
     if later:
-        return min(later)[2]
+        return min(later)[1]
     around = [(s.line, n) for n, s in possible if low <= s.line <= line <= s.end_line]
     return max(around)[1] if around else None
