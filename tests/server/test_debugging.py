@@ -100,6 +100,13 @@ def test_a_day_of_debugging(app: FastAPI, engineer: TestClient) -> None:
     until(lambda: ask(engineer, "GET", "")["breakpoints"][0]["verified"])
     assert halted(engineer)["place"]["line"] == 2, "a breakpoint stays at its line"
 
+    versions = f"/api/v1/projects/{info.id}/applications/{application.id}/versions"
+    oldest = engineer.get(versions, params={"runtime_id": LOCAL_RUNTIME}).json()[-1]["code_id"]
+    order = {"runtime_id": LOCAL_RUNTIME, "mode": "online_change"}
+    assert engineer.post(f"{versions}/{oldest}/restore", json=order).status_code == 200
+    until(lambda: ask(engineer, "GET", "")["breakpoints"][0]["verified"])
+    assert halted(engineer)["place"]["line"] == 2, "and holds in the version that is back"
+
     wrong = engineer.put(f"{DEBUG}/breakpoints/77", json={"breakpoint": {"place": place}})
     assert wrong.status_code == 404
     assert engineer.post(f"{DEBUG}/breakpoints", json={"breakpoint": {"kind": "line"}}).status_code == 409

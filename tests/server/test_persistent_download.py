@@ -43,10 +43,12 @@ class Plant:
     def differing(self) -> list[tuple[str, str]]:
         return [(row["path"], row["reason"]) for row in self.login()["persistent"]]
 
-    def download(self, **more: Any) -> None:
+    def download(self, **more: Any) -> str:
+        """Code of what was loaded."""
         order = {**TARGET, "mode": "download", "start": True, **more}
         done = self.client.post(f"{self.url}/download", json=order)
         assert done.status_code == 200, done.text
+        return str(done.json()["code_id"])
 
     def write(self, **values: int) -> None:
         rows = [{"expression": f"Kept.{name}", "value": value} for name, value in values.items()]
@@ -78,6 +80,34 @@ def test_what_a_download_cannot_keep_is_told_and_all_can_begin_anew(
     plant.declare("a : DINT := 1; e : DINT := 5;")
     plant.download(initialise_persistent=True)
     assert plant.values("a", "e") == [1, 5]
+    acts = [row["action"] for row in engineer.get("/api/v1/audit").json()]
+    assert acts.count("reset-origin") == 1
+
+
+def test_back_to_a_version_tells_it_too(app: FastAPI, engineer: TestClient) -> None:
+    plant = Plant(engineer)
+    plant.declare("a : DINT := 1; b : DINT := 2; c : DINT := 3;")
+    first = plant.download()
+    plant.declare("a : DINT := 1; b : LINT := 2; cc : DINT := 3;")
+    plant.download()
+    plant.write(a=11, b=12, cc=13)
+
+    version = f"{plant.url}/versions/{first}"
+    costs = engineer.post(f"{version}/compare", json=TARGET).json()
+    told = [(row["path"], row["reason"]) for row in costs["persistent"]]
+    assert told == [("Kept.b", "type_changed"), ("Kept.cc", "removed")]
+    order = {**TARGET, "mode": "download"}
+    assert engineer.post(f"{version}/restore", json=order).json()["code_id"] == first
+    assert plant.values("a", "b", "c") == [11, 2, 3]
+
+    plant.write(b=22)
+    second = plant.download()
+    assert plant.differing() == []
+    plant.write(a=31)
+    done = engineer.post(f"{version}/restore", json={**order, "initialise_persistent": True})
+    assert done.status_code == 200, done.text
+    assert plant.values("a", "b", "c") == [1, 2, 3]
+    assert second != first
     acts = [row["action"] for row in engineer.get("/api/v1/audit").json()]
     assert acts.count("reset-origin") == 1
 

@@ -979,7 +979,8 @@ export interface paths {
         put?: never;
         /**
          * Compare Version
-         * @description What it costs to bring that version back: whether it goes online, and what happens to variables.
+         * @description What it costs to bring that version back: whether it goes online, and what happens to variables; which
+         *     persistent ones a download cannot keep.
          */
         post: operations["compare_version"];
         delete?: never;
@@ -7583,6 +7584,31 @@ export interface components {
             tasks: string[];
         };
         /**
+         * LoadOrder
+         * @description How to bring an application into the runtime.
+         */
+        LoadOrder: {
+            /**
+             * Initialise Persistent
+             * @description Give all persistent variables their initial values: a reset origin before a download.
+             * @default false
+             */
+            initialise_persistent?: boolean;
+            /**
+             * Mode
+             * @enum {string}
+             */
+            mode: "download" | "online_change";
+            /** Runtime Id */
+            runtime_id: string;
+            /**
+             * Start
+             * @description Start after a download; an online change never stops.
+             * @default true
+             */
+            start?: boolean;
+        };
+        /**
          * LogEntry
          * @description One line of a runtime's log.
          */
@@ -9918,25 +9944,6 @@ export interface components {
              * @description Of the drive, in Nm.
              */
             torque: number[] | null;
-        };
-        /**
-         * RestoreOrder
-         * @description How to bring an earlier version back.
-         */
-        RestoreOrder: {
-            /**
-             * Mode
-             * @enum {string}
-             */
-            mode: "download" | "online_change";
-            /** Runtime Id */
-            runtime_id: string;
-            /**
-             * Start
-             * @description Start after a download; an online change never stops.
-             * @default true
-             */
-            start?: boolean;
         };
         /**
          * Result
@@ -15192,7 +15199,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["RestoreOrder"];
+                "application/json": components["schemas"]["LoadOrder"];
             };
         };
         responses: {

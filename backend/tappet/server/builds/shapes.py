@@ -148,8 +148,8 @@ class LoginReport(Reply):
     )
 
 
-class DownloadOrder(Request):
-    """How to bring the built application into the runtime."""
+class LoadOrder(Request):
+    """How to bring an application into the runtime."""
 
     runtime_id: str
     mode: Literal["download", "online_change"]
@@ -158,6 +158,11 @@ class DownloadOrder(Request):
         default=False,
         description="Give all persistent variables their initial values: a reset origin before a download.",
     )
+
+
+class DownloadOrder(LoadOrder):
+    """How to bring the built application into the runtime."""
+
     source: bool | None = Field(
         default=None,
         description="Store the source of the project in the controller, too; null: as the application says.",

@@ -10,12 +10,12 @@ from starlette.concurrency import run_in_threadpool
 from tappet.server.audited import ActRecord, audited
 from tappet.server.auth.roles import Role
 from tappet.server.builds.recording import recording
-from tappet.server.builds.shapes import DownloadReport, LoginReport, LoginTarget
+from tappet.server.builds.shapes import DownloadReport, LoadOrder, LoginReport, LoginTarget
 from tappet.server.dependencies import CommissioningDep, RuntimesDep, ServicesDep, Viewer
 from tappet.server.routing import Router
 from tappet.server.spoken import LanguageDep, in_language
 from tappet.server.versions.service import source_of, versions
-from tappet.server.versions.shapes import RestoreOrder, Version
+from tappet.server.versions.shapes import Version
 
 router = Router(prefix="/projects/{project_id}/applications/{application_id}/versions", tags=["build"])
 CodeId = Annotated[str, Path(pattern=r"^[0-9A-Za-z_-]{1,128}$")]
@@ -55,7 +55,8 @@ async def compare_version(
     runtimes: RuntimesDep,
     language: LanguageDep,
 ) -> LoginReport:
-    """What it costs to bring that version back: whether it goes online, and what happens to variables."""
+    """What it costs to bring that version back: whether it goes online, and what happens to variables; which
+    persistent ones a download cannot keep."""
     link = runtimes.get(body.runtime_id)
     project = await run_in_threadpool(source_of, commissioning.packages, code_id)
     report = await commissioning.compare(project_id, application_id, link, language, project)
@@ -68,18 +69,27 @@ async def restore_version(
     project_id: str,
     application_id: str,
     code_id: CodeId,
-    body: RestoreOrder,
+    body: LoadOrder,
     commissioning: CommissioningDep,
     runtimes: RuntimesDep,
     language: LanguageDep,
+    services: ServicesDep,
 ) -> DownloadReport:
     """Bring a version back into the runtime. The project stays as it is."""
     link = runtimes.get(body.runtime_id)
     begin = recording(act, project_id, link)
     project = await run_in_threadpool(source_of, commissioning.packages, code_id)
     built = await commissioning.download(
-        project_id, application_id, link, body.mode, body.start, begin, project
+        project_id,
+        application_id,
+        link,
+        body.mode,
+        body.start,
+        begin,
+        project,
+        initialise_persistent=body.initialise_persistent,
     )
+    services.debug.restore(link)
     info = link.info
     report = DownloadReport(
         application=built.application.name,

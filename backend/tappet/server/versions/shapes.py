@@ -7,7 +7,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from tappet.server.shapes import Reply, Request
+from tappet.server.shapes import Reply
 
 
 class Version(Reply):
@@ -19,11 +19,3 @@ class Version(Reply):
     how: Literal["download", "online-change"]
     runs: bool = Field(description="Whether it is the one that the runtime has now.")
     kept: bool = Field(description="Whether the server still has its source, so that it can be brought back.")
-
-
-class RestoreOrder(Request):
-    """How to bring an earlier version back."""
-
-    runtime_id: str
-    mode: Literal["download", "online_change"]
-    start: bool = Field(default=True, description="Start after a download; an online change never stops.")

@@ -50,7 +50,12 @@ async function versions(context: CommandContext): Promise<void> {
   try {
     await api.post('/api/v1/projects/{project_id}/applications/{application_id}/versions/{code_id}/restore', {
       params: { path: { ...path, code_id: choice.codeId } },
-      body: { runtime_id: runtimeId, mode: choice.mode, start: running },
+      body: {
+        runtime_id: runtimeId,
+        mode: choice.mode,
+        start: choice.start,
+        initialise_persistent: choice.fresh,
+      },
     });
   } finally {
     useProject.setState({ busy: null });

@@ -10,8 +10,9 @@ import type { Column } from '@/ui/table';
 import { secondText } from '../clock';
 import { ChangesTable } from './ChangesTable';
 import styles from './dialogs.module.css';
+import { DownloadTerms, type DownloadChoice } from './DownloadTerms';
 
-export interface RestoreChoice {
+export interface RestoreChoice extends DownloadChoice {
   codeId: string;
   mode: 'online_change' | 'download';
 }
@@ -32,6 +33,7 @@ const keyOf = ({ at, code_id }: RuntimeVersion) => `${at} ${code_id}`;
 export function VersionsDialog({ projectId, applicationId, runtimeId, versions, running, close }: VersionsDialogProps) {
   const t = useText();
   const [version, setVersion] = useState(() => versions.find(({ runs, kept }) => !runs && kept) ?? null);
+  const [choice, setChoice] = useState<DownloadChoice>({ start: running, fresh: false });
   const possible = version !== null && version.kept && !version.runs;
   const codeId = version?.code_id ?? '';
   const costs = useQuery({
@@ -47,6 +49,7 @@ export function VersionsDialog({ projectId, applicationId, runtimeId, versions, 
   });
   const online = costs.data?.relation === 'online_change';
   const same = costs.data?.relation === 'same';
+  const stops = costs.data !== undefined && !online && !same;
   const columns: Column<RuntimeVersion>[] = [
     { id: 'at', title: t('versions.at'), width: 150, cell: ({ at }) => secondText(at), sort: ({ at }) => at },
     { id: 'who', title: t('versions.who'), width: 110, grow: true, cell: ({ username }) => username },
@@ -71,9 +74,9 @@ export function VersionsDialog({ projectId, applicationId, runtimeId, versions, 
       description={t('versions.text')}
       width={860}
       onClose={() => close()}
-      onSubmit={() => close({ codeId, mode: online ? 'online_change' : 'download' })}
+      onSubmit={() => close({ codeId, mode: online ? 'online_change' : 'download', ...choice })}
       action={t(online || costs.data === undefined ? 'versions.back' : 'versions.download')}
-      danger={costs.data !== undefined && !online && running}
+      danger={stops && running}
       disabledReason={refused()}
       focusCancel={running}
     >
@@ -84,7 +87,10 @@ export function VersionsDialog({ projectId, applicationId, runtimeId, versions, 
           columns={columns}
           keyOf={keyOf}
           selected={version && keyOf(version)}
-          onSelect={setVersion}
+          onSelect={(next) => {
+            setVersion(next);
+            setChoice((before) => ({ ...before, fresh: false })); // asked for the variables of another version
+          }}
           empty={<Empty title={t('versions.none')} />}
         />
       </div>
@@ -95,27 +101,27 @@ export function VersionsDialog({ projectId, applicationId, runtimeId, versions, 
           ) : costs.error ? (
             <Empty title={t('versions.unknown')} text={costs.error.message} />
           ) : (
-            <Costs answer={costs.data} running={running} close={() => close()} />
+            <Costs answer={costs.data} close={() => close()} />
           )}
         </div>
+      )}
+      {possible && stops && (
+        <DownloadTerms running={running} persistent={costs.data.persistent} choice={choice} onChoice={setChoice} />
       )}
     </FormDialog>
   );
 }
 
-function Costs({ answer, running, close }: { answer: LoginAnswer; running: boolean; close: () => void }) {
+function Costs({ answer, close }: { answer: LoginAnswer; close: () => void }) {
   const t = useText();
   if (answer.changes.length > 0) return <ChangesTable answer={answer} onLeave={close} />;
   if (answer.relation === 'same') return <Empty title={t('versions.runsAlready')} />;
   if (answer.relation === 'online_change') return <Empty title={t('versions.onlyCode')} />;
   return (
-    <>
-      {running && <p className={styles.warning}>{t('login.stops')}</p>}
-      <ul className={styles.why}>
-        {answer.reasons.map((reason) => (
-          <li key={reason}>{reason}</li>
-        ))}
-      </ul>
-    </>
+    <ul className={styles.why}>
+      {answer.reasons.map((reason) => (
+        <li key={reason}>{reason}</li>
+      ))}
+    </ul>
   );
 }

@@ -4,19 +4,15 @@ import type { LoginAnswer, RuntimeState } from '@/api/types';
 import { t, useText } from '@/i18n';
 import { openDialog } from '@/ui/dialogs';
 import { FormDialog } from '@/ui/FormDialog';
-import { Checkbox } from '@/ui/Field';
 import { RadioCards } from '@/ui/RadioCards';
 import { ChangesTable } from './ChangesTable';
 import styles from './dialogs.module.css';
+import { DownloadTerms, type DownloadChoice, type DownloadCosts } from './DownloadTerms';
 import { loginChoices, proposedChoice, type LoginHow } from './loginChoices';
 import { RuntimeDialog } from './RuntimeDialog';
 
-export interface LoginChoice {
+export interface LoginChoice extends DownloadChoice {
   how: LoginHow;
-  /** After a download: start at once. */
-  start: boolean;
-  /** Persistent variables begin with their initial values, all of them. */
-  fresh: boolean;
 }
 
 interface LoginQuestion {
@@ -32,15 +28,10 @@ export function askLogin(question: LoginQuestion): Promise<LoginChoice | undefin
   return openDialog<LoginChoice>((close) => <LoginDialog {...question} close={close} />);
 }
 
-interface DownloadQuestion {
+interface DownloadQuestion extends DownloadCosts {
   application: string;
   project: string;
-  running: boolean;
-  /** Persistent variables that cannot keep their values. */
-  persistent: LoginAnswer['persistent'];
 }
-
-type DownloadChoice = Pick<LoginChoice, 'start' | 'fresh'>;
 
 export function askDownload(question: DownloadQuestion): Promise<DownloadChoice | undefined> {
   return openDialog<DownloadChoice>((close) => <DownloadDialog {...question} close={close} />);
@@ -121,54 +112,6 @@ function LoginDialog({
         <DownloadTerms running={running} persistent={answer.persistent} choice={choice} onChoice={setChoice} />
       )}
     </FormDialog>
-  );
-}
-
-interface DownloadTermsProps extends Pick<DownloadQuestion, 'running' | 'persistent'> {
-  choice: DownloadChoice;
-  onChoice: (choice: DownloadChoice) => void;
-}
-
-/** What a download does to the machine, and what is to be done with it afterwards. */
-function DownloadTerms({ running, persistent, choice, onChoice }: DownloadTermsProps) {
-  return (
-    <>
-      {running && <p className={styles.warning}>{t('login.stops')}</p>}
-      {persistent.length > 0 && (
-        <Persistent changes={persistent} fresh={choice.fresh} onFresh={(fresh) => onChoice({ ...choice, fresh })} />
-      )}
-      <Checkbox checked={choice.start} onChecked={(start) => onChoice({ ...choice, start })}>
-        {t('login.startAfter')}
-      </Checkbox>
-    </>
-  );
-}
-
-/** The persistent variables that the download cannot keep, and what is to become of the others (PERS-05). */
-function Persistent({
-  changes,
-  fresh,
-  onFresh,
-}: {
-  changes: LoginAnswer['persistent'];
-  fresh: boolean;
-  onFresh: (fresh: boolean) => void;
-}) {
-  useText();
-  return (
-    <div role="group" aria-label={t('login.persistent')}>
-      <p className={styles.warning}>{t('login.persistentLost', { count: changes.length })}</p>
-      <ul className={styles.persistent}>
-        {changes.map(({ path, reason }) => (
-          <li key={path}>
-            <span className="code">{path}</span> · {t(`login.persistent.${reason}`)}
-          </li>
-        ))}
-      </ul>
-      <Checkbox checked={fresh} onChecked={onFresh}>
-        {t('login.persistentFresh')}
-      </Checkbox>
-    </div>
   );
 }
 
