@@ -5,9 +5,11 @@ scheduling.
 from __future__ import annotations
 
 import ctypes
+import errno
 import mmap
 import os
 import platform
+import time
 from ctypes import c_char_p, c_int, c_int64, c_long, c_size_t, c_uint64, c_void_p
 from dataclasses import dataclass
 
@@ -68,6 +70,7 @@ _declare("pthread_mutexattr_destroy", c_int, c_void_p)
 _declare("pthread_mutex_init", c_int, c_uint64, c_void_p)
 _declare("sem_init", c_int, c_uint64, c_int, c_int)
 _declare("sem_post", c_int, c_uint64)
+_declare("sem_clockwait", c_int, c_uint64, c_int, c_void_p)
 
 
 class Timespec(ctypes.Structure):
@@ -245,16 +248,29 @@ def create_thread(entry: int, argument: int, stack: Mapping, guard: int, options
 
 def join_thread(thread: int, timeout_s: float) -> bool:
     """Wait for the end of a native thread without holding the GIL; False when it still runs."""
-    import time
-
-    due = time.clock_gettime_ns(time.CLOCK_MONOTONIC) + int(timeout_s * 1e9)
-    limit = Timespec(due // 1_000_000_000, due % 1_000_000_000)
+    limit = _moment(timeout_s)
     status = libc.pthread_clockjoin_np(thread, None, time.CLOCK_MONOTONIC, ctypes.byref(limit))
     if status == 0:
         return True
-    if status == 110:  # ETIMEDOUT
+    if status == errno.ETIMEDOUT:
         return False
     raise _error("pthread_clockjoin_np", status)
+
+
+def take_semaphore(address: int, timeout_s: float) -> bool:
+    """Wait for a post of a semaphore without holding the GIL; False when none has come."""
+    limit = _moment(timeout_s)
+    if libc.sem_clockwait(address, time.CLOCK_MONOTONIC, ctypes.byref(limit)) == 0:
+        return True
+    if ctypes.get_errno() in (errno.ETIMEDOUT, errno.EINTR):
+        return False
+    raise _error("sem_clockwait")
+
+
+def _moment(after_s: float) -> Timespec:
+    """On the monotonic clock."""
+    due = time.clock_gettime_ns(time.CLOCK_MONOTONIC) + int(after_s * 1e9)
+    return Timespec(due // 1_000_000_000, due % 1_000_000_000)
 
 
 def signal_thread(thread: int, signal: int) -> None:

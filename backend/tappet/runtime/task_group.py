@@ -16,6 +16,7 @@ from tappet.runtime.faults import RawFault
 from tappet.runtime.posix import libc
 from tappet.runtime.tasks import KINDS
 from tappet.runtime.threads import NativeThread, Scheduling
+from tappet.runtime.virtual_worker import VirtualWorker
 
 BOUNDARY_TIMEOUT_S = 5.0
 """A task that does not reach its cycle boundary within this time is taken out of its programs."""
@@ -35,6 +36,7 @@ class TaskGroup:
         self.contexts = contexts
         self.scheduling = scheduling
         self._threads: list[NativeThread] = []
+        self._virtual: VirtualWorker | None = None
         self._wake_files: Callable[[], None] | None = None
         self._published: dict[int, object] = {}
         self._retired: list[tuple[list[int], object, Callable[[], None] | None]] = []
@@ -86,6 +88,8 @@ class TaskGroup:
 
     def _join(self, timeout_s: float) -> bool:
         due = time.monotonic() + timeout_s
+        if self._virtual is not None and not self._virtual.end(timeout_s):
+            return False
         return all(t.join(max(0.0, due - time.monotonic()), waker=self._wake_all) for t in self._threads)
 
     def _wake_all(self) -> None:
@@ -197,7 +201,7 @@ class TaskGroup:
             self.contexts.service_stack,
             self.scheduling.task_options("initialise", 31, freewheeling=True),
         )
-        self._await_thread(thread, service.place("abort"))
+        self._await(thread.join, service.place("abort"))
         fault = self.contexts.fault(service)
         return fault if fault.code else None
 
@@ -208,24 +212,25 @@ class TaskGroup:
         if not self.contexts.tasks:
             application["virtualNow"] = max(until_ns, application["virtualNow"])
             return
-        thread = NativeThread(
-            self.executive.entries["tappet_virtual_thread"],
-            application.address,
-            self.contexts.stacks[0],
-            self.scheduling.task_options("virtual", 31, freewheeling=True),
-        )
-        self._await_thread(thread, application.place("quit"))
+        if self._virtual is None:
+            options = self.scheduling.task_options("virtual", 31, freewheeling=True)
+            self._virtual = VirtualWorker(self.executive, self.contexts, options)
+        if not self._virtual.done(BOUNDARY_TIMEOUT_S):
+            raise TaskError("a task on virtual time does not end its cycle")
+        self._virtual.begin()
+        self._await(self._virtual.done, application.place("quit"))
 
-    def _await_thread(self, thread: NativeThread, stop_flag: int) -> None:
-        """Join; each wake lets the thread look whether its cycle has taken too long. An interrupt ends it."""
+    def _await(self, ended: Callable[[float], bool], stop_flag: int) -> None:
+        """Wait for a thread, which is woken to look whether its cycle has taken too long. An interrupt ends
+        what it runs."""
         try:
-            while not thread.join(1.0):
+            while not ended(1.0):
                 pass
         except BaseException:
             self.executive.store_flag(stop_flag, 1)
             for task in (*self.contexts.tasks, self.contexts.service):
                 self.executive.store_flag(task.place("abort"), 1)
-            thread.join(BOUNDARY_TIMEOUT_S)
+            ended(BOUNDARY_TIMEOUT_S)
             for task in (*self.contexts.tasks, self.contexts.service):
                 self.executive.store_flag(task.place("abort"), 0)
             self.executive.store_flag(stop_flag, 0)

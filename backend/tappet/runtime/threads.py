@@ -151,6 +151,18 @@ def real_time_scheduling(*, pin: bool = True) -> Scheduling:
     )
 
 
+def wait_waking(ended: Callable[[float], bool], wake: Callable[[], None], timeout_s: float) -> bool:
+    """Wait for what a thread is to do, waking it again and again; `ended` waits for so many seconds at most.
+    False when it has not ended after `timeout_s`."""
+    step_s, waited_s = 0.01, 0.0
+    while not ended(step_s):
+        if waited_s >= timeout_s:
+            return False
+        waited_s += step_s
+        wake()
+    return True
+
+
 class NativeThread:
     """A running native thread; it must be joined before its stack is released."""
 
@@ -166,14 +178,10 @@ class NativeThread:
 
     def join(self, timeout_s: float, *, waker: Callable[[], None] | None = None) -> bool:
         """Wait for its end, waking it again and again; False when it still runs after `timeout_s`."""
-        step = 0.01
-        waited = 0.0
-        while not self._joined:
-            self._joined = join_thread(self._handle, step)
-            if self._joined or waited >= timeout_s:
-                break
-            waited += step
-            (waker or self.wake)()
+        if not self._joined:
+            self._joined = wait_waking(
+                lambda step_s: join_thread(self._handle, step_s), waker or self.wake, timeout_s
+            )
         return self._joined
 
 
