@@ -73,7 +73,8 @@ IF xModify THEN
     rf.aTokenModifier[0] := per60;
 END_IF
 rf(bExecute := xExecute);
-nci(sentences := rf.sentences, bExecute := rf.bExecuteDecoder, nSizeOutQueue := SIZEOF(aBuffer), pbyBufferOutQueue := ADR(aBuffer));
+nci(sentences := rf.sentences, bExecute := rf.bExecuteDecoder, nSizeOutQueue := SIZEOF(aBuffer),
+    pbyBufferOutQueue := ADR(aBuffer));
 IF nci.GCodeText.bNewLine THEN
     sText := nci.GCodeText.str;
 END_IF
@@ -101,7 +102,8 @@ END_PROGRAM
 (* SEL of IEC 61131-3: T_OTHER is any type. *)
 FUNCTION_BLOCK SELECTION IMPLEMENTS SMC_NC_IFunction
 VAR
-    aTypes : ARRAY[0..2] OF SMC_GVar_Type := [SMC_GVar_Type.T_BOOL, SMC_GVar_Type.T_OTHER, SMC_GVar_Type.T_OTHER];
+    aTypes : ARRAY[0..2] OF SMC_GVar_Type := [
+        SMC_GVar_Type.T_BOOL, SMC_GVar_Type.T_OTHER, SMC_GVar_Type.T_OTHER];
 END_VAR
 METHOD GetSignature
 VAR_OUTPUT
@@ -216,6 +218,8 @@ class Outcome:
     """X Y Z A P Q at the end of each object."""
     kinds: list[int]
     lengths: list[float]
+    messages: tuple[str, str]
+    """Of the reader and of the interpreter."""
 
     @property
     def done(self) -> bool:
@@ -269,4 +273,5 @@ class Interpreter(FileProgram):
             [tuple(ends[n * width : (n + 1) * width]) for n in range(count)],
             [int(kind) for kind in self.numbers("aiKinds")[:count]] if count else [],
             self.numbers("afLengths")[:count] if count else [],
+            (self.literal("rf.sErrorText").strip("'"), self.literal("nci.sErrorText").strip("'")),
         )

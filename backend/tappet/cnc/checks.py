@@ -53,8 +53,8 @@ class _Checks:
                 yield _at(
                     line, word, f"Axis {word.address[1]} has no limits of its own; Z, P, Q, U, V and W have"
                 )
-            elif word.address == "PROBE":
-                yield _at(line, word, "Probes are not supported; leave PROBE out")
+            elif word.address == "PROBE" and word.variable is None and word.value not in range(1, 32768):
+                yield _at(line, word, "A probe has a number from 1 to 32767")
             yield from _range(line, word)
         if not commands:
             yield from self._modal_line(line)
@@ -71,8 +71,6 @@ class _Checks:
         command = COMMANDS.get(number)
         if command is None:
             yield _at(line, word, f"G{number} is no command")
-        elif command.refused:
-            yield _at(line, word, f"G{number} ({command.refused}) is not supported")
         else:
             if command.travels:
                 self.travel = number
@@ -162,9 +160,12 @@ def _words(line: Line, name: str, command: Command, place: Word) -> Iterator[Pro
     """Words that the command does not know, and one that it needs."""
     switched = any(word.address == "H" for word in line.words)
     present = set()
+    probed = any(word.address == "PROBE" for word in line.words)
     for word in line.words:
         address = word.address
-        if address == "G" or address in LIMITLESS or address == "PROBE":
+        if address == "H" and probed and command.probes:
+            yield _at(line, word, "A probing movement has no switch points; leave H or PROBE out")
+        if address == "G" or address in LIMITLESS or (address == "PROBE" and command.probes):
             continue
         present.add(address)
         stray = "H" in command.words and address in ("L", "O") and not switched
@@ -174,6 +175,11 @@ def _words(line: Line, name: str, command: Command, place: Word) -> Iterator[Pro
                 word,
                 f"{name} has no use for '{address}'; write it into a line of its own, or leave it out",
             )
+        elif address == "L" and command.numbers is not None and word.variable is None:
+            if word.value not in command.numbers:
+                yield _at(
+                    line, word, f"L of {name} is a number from {command.numbers[0]} to {command.numbers[-1]}"
+                )
         elif "O" in command.words and "H" not in command.words and address == "O" and word.variable is None:
             yield _at(line, word, f"O of {name} is a variable, such as O$counter$")
     moves = present - MODAL

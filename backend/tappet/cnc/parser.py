@@ -125,9 +125,8 @@ class _LineReader:
         if character in "#{":
             match = _EXPRESSION.match(self.text, column)
             stop = match.end() if match else column + 1
-            message = (
-                "Local variables, expressions and subprograms are not supported; write a number or $name$"
-            )
+            message = "Local variables, expressions and subprograms are read from files at run time only"
+                " (SMC_ReadNCFile2); write a number or $name$"
             self._say(column, stop - column, message)
             return stop
         self._say(
