@@ -125,9 +125,12 @@ class _LineReader:
         if character in "#{":
             match = _EXPRESSION.match(self.text, column)
             stop = match.end() if match else column + 1
-            message = "Local variables, expressions and subprograms are read from files at run time only"
-                " (SMC_ReadNCFile2); write a number or $name$"
-            self._say(column, stop - column, message)
+            self._say(
+                column,
+                stop - column,
+                "Local variables, expressions and subprograms are read from files at run time only"
+                " (SMC_ReadNCFile2); write a number or $name$",
+            )
             return stop
         self._say(
             column, 1, f"'{character}' does not begin a word; write an address and its value, such as X10"
