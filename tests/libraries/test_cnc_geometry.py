@@ -12,6 +12,7 @@ from tests.libraries.cnc_paths import (
     AXES,
     CCLW,
     CLW,
+    INITPOS,
     LIN,
     LINADDAXES,
     LINNODELTA,
@@ -292,3 +293,26 @@ def test_the_angle_of_a_corner(degrees: float, heading: float) -> None:
             program.set("Main", **{f"{name}.{member}": value for member, value in geo.values().items()})
         program.cycle()
         assert float(program.literal("Main.k")) == pytest.approx(degrees, abs=1e-12, rel=1e-6)
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.sampled_from([LIN, LINPOS, INITPOS]), st.booleans(), number, st.lists(number, min_size=9, max_size=9)
+)
+def test_a_line_without_a_way_in_the_plane_has_that_of_what_moves(
+    kind: int, space: bool, height: float, axes: list[float]
+) -> None:
+    """Spec GEO-02: a positioning of Z alone goes |Z|, one of additional axes alone their Euclidean way."""
+    geo = line(position(3, 4, 5), position(3, 4, 5), kind)
+    geo.space = space
+    geo.end[2] += height
+    geo.end[3:] = axes
+    expected = abs(height) or float(np.linalg.norm(axes))
+    with run(PROGRAM, cycles=0, inside="SM3_CNC") as program:
+        load(program, geo)
+        assert program.literal("Main.xLength") == "TRUE"
+        assert float(program.literal("Main.geo.dLength")) == pytest.approx(expected, rel=1e-12)
+        points = np.array(program.numbers("Main.aPoints")).reshape(SAMPLES, 12)
+    if kind != INITPOS:
+        shares = np.linspace(0, 1, SAMPLES)[:, None]
+        np.testing.assert_allclose(points, geo.start + shares * (geo.end - geo.start), atol=1e-12)

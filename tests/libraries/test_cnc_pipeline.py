@@ -72,6 +72,11 @@ END_PROGRAM
         # a dwell, and a synchronisation that lets the decoder go on
         ("G1 X50 F10 E10 E-10\nG4 T2\nG1 X100", 14.0, (100, 0), 10),
         ("G1 X50 F10 E10 E-10\nG75\nG1 X100", 12.0, (100, 0), 10),
+        # a position that is set: the way back is one of positioning, from where the interpolator stands
+        ("G1 X50 F10 E10 E-10\nG92 X0\nG1 X30", 16.0, (30, 0), 10),
+        ("G1 X50 F10 E10 E-10\nG92 X90\nG92 X0\nG1 X30", 16.0, (30, 0), 10),
+        # positioning of Z and of an additional axis alone takes its time
+        ("G1 X50 F10 E10 E-10\nG0 Z50\nG0 P30", 16.0, (50, 0), 10),
         # both halves of a circle: one movement
         ("G2 X100 R50 F50 E100 E-100\nG2 X0 R50", 314.159265358979 / 50 + 0.5, (0, 0), 50),
         # jumps: four lines in a row

@@ -63,8 +63,10 @@ class Path:
 
 
 @contextmanager
-def path(objects: list[dict[str, float]], **inputs: float | bool | str) -> Iterator[Path]:
-    with run(PROGRAM, cycles=0) as program:
+def path(
+    objects: list[dict[str, float]], text: str = PROGRAM, **inputs: float | bool | str
+) -> Iterator[Path]:
+    with run(text, cycles=0) as program:
         for n, item in enumerate(objects):
             program.set("Main", **{f"aPath[{n}].{name}": value for name, value in item.items()})
         program.set("Main", nObjects=len(objects))
@@ -136,6 +138,19 @@ def test_switch_points_and_m_functions() -> None:
             3,
             30,
         )
+
+
+def test_a_synchronisation_is_answered() -> None:
+    """Spec GEO-18: when the axis has come to it, not before."""
+    text = PROGRAM.replace("dWay    : LREAL;", "dWay    : LREAL;\n    xPassed : BOOL;").replace(
+        "    queue.bEndOfList := TRUE;", "    SM3_CNC.SMC_GetObj(ADR(queue), 1)^.pPassed := ADR(xPassed);"
+    )
+    stop: dict[str, float] = {"iMoveType": 120, "iHelpID[0]": -2}
+    with path([line(0, 0, 50, 0), stop], text) as one:
+        one.at(49.0)
+        assert one.program.literal("Main.xPassed") == "FALSE"
+        one.at(51.0)
+        assert one.program.literal("Main.xPassed") == "TRUE"
 
 
 @settings(max_examples=30, deadline=None)
