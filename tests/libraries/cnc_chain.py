@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -63,7 +63,8 @@ VAR
 {buffers}    pOut : POINTER TO SM3_CNC.SMC_OUTQUEUE;
     xOver, xError, xBegun : BOOL;
     nError, nGenerator : INT;
-    vec : SM3_CNC.SMC_VECTOR3D; (* An input of a block *)
+    vec : SM3_CNC.SMC_VECTOR3D; (* Inputs of a block *)
+    pi  : SM3_CNC.SMC_POSINFO;
 END_VAR
 IF NOT xBegun THEN
     queue.pbyBuffer := ADR(aBuffer);
@@ -115,11 +116,13 @@ def through(
     takes: int = LARGE,
     cycles: int = 400,
     vec: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    pi: Mapping[str, float] | None = None,
 ) -> Result:
     """The objects behind the blocks, and the error of the block that stopped, 0 for none."""
     with run(program(blocks), cycles=0) as application:
         application.set("Main", nIn=len(objects), nCapacity=capacity, nGives=gives, nTakes=takes)
         application.set("Main", **{f"vec.{axis}": value for axis, value in zip(AXES, vec, strict=False)})
+        application.set("Main", **{f"pi.{axis}": value for axis, value in (pi or {}).items()})
         for n, geo in enumerate(objects):
             application.set("Main", **{f"aIn[{n}].{name}": value for name, value in geo.values().items()})
         for _ in range(cycles):

@@ -26,6 +26,7 @@ _SCALARS = (
     *(f"adZ[{n}]" for n in range(4)), *(f"adVelAddAx[{n}]" for n in range(7)),
     *(f"adAccAddAx[{n}]" for n in range(7)),
     *(f"adDecAddAx[{n}]" for n in range(7)), "piDestPos.wAuxData", "piDestPos.wSProfile",
+    "wSmoothAxes", "dwFlags", *(f"vToolLength.d{a}" for a in "XYZ"),
 )  # fmt: skip
 _MEMBERS = ("dX", "dY", "dZ", "dA", "dB", "dC", "dA1", "dA2", "dA3", "dA4", "dA5")
 _FIELDS = (

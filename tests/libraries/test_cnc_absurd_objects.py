@@ -68,7 +68,7 @@ def test_the_members_are_all_that_are_numbers() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", BLOCKS)
 def test_what_is_no_number_is_refused(name: str) -> None:
-    """Each member of an object with what is no number or too large: SMC_CNC_INVALID_VALUE, nothing behind it."""
+    """Each member of an object, no number or too large: SMC_CNC_INVALID_VALUE, nothing behind it."""
     for n, member in enumerate(MEMBERS):
         objects = straight()
         objects[2] = absurd(objects[2], member, NO_NUMBERS[n % len(NO_NUMBERS)])

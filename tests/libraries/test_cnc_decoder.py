@@ -208,6 +208,25 @@ def test_marks() -> None:
     assert [geo["dToolRadius"] for geo in found] == [2, 2, 3, 3, 3, 3]
 
 
+def test_modes_of_preprocessing() -> None:
+    """Spec G38, G39, G43, G70, G71: what is on stays until it is switched off, for M functions too."""
+    found = path(
+        "G1 X1 F9\nG43 K5\nG71 L8\nG1 X2\nG71 L4\nM3\nG38 L3\nG1 X3\nG70 L8\nG43 I1 J2\nG38 L32 D1\n"
+        "G1 X4 D9\nG39 L3\nG70 L4\nG38 L32 D0\nG43\nG1 X5"
+    )
+    assert [int(geo["wSmoothAxes"]) for geo in found] == [0, 0x80, 0x88, 0x88, 0x08, 0]
+    assert [int(geo["dwFlags"]) for geo in found] == [0, 0, 0, 4, 1 << 31 | 4, 0]
+    assert [[geo[f"vToolLength.d{axis}"] for axis in "XYZ"] for geo in found] == [
+        [0, 0, 0],
+        [0, 0, 5],
+        [0, 0, 5],
+        [0, 0, 5],
+        [1, 2, 0],
+        [0, 0, 0],
+    ]
+    assert [geo["dToolRadius"] for geo in found] == [0, 0, 0, 0, 9, 9]
+
+
 def test_marks_that_take_each_other_back() -> None:
     """A command behind another one without an object between them."""
     found = path("G1 X1 F9\nG41\nG40\nG51\nG52\nG42\nG41\nG1 X2")

@@ -26,13 +26,23 @@ BLOCKS = {
     "SMC_LimitAddAxisDynamics": "wAddAxis := 16#7C4, dMaxVel := 10",
     "SMC_ObjectSplitter": "dMaxLength := 13",
     "SMC_ReduceVelEndAtCorner": "dAngle := 5, dMaxVelJump := 10",
+    "SMC_ToolLengthCorr": "",
+    "SMC_SmoothMerge": "dTolerance := 0.05",
+    "SMC_SmoothBSpline": "",
+    "SMC_SmoothAddAxes": "",
+    "SMC_RecomputeABCSlopes": "",
 }
-CHANGES_NOTHING = {
-    "SMC_TranslateQueue3D": "vec := vec",
-    "SMC_RotateQueue2D": "",
-    "SMC_ScaleQueue3D": "",
-    "SMC_ObjectSplitter": "",
-} | dict.fromkeys(("SMC_ToolCorr", "SMC_AvoidLoop", "SMC_SmoothPath", "SMC_RoundPath"), "")
+CHANGES_NOTHING = (
+    {
+        "SMC_TranslateQueue3D": "vec := vec",
+        "SMC_RotateQueue2D": "",
+        "SMC_ScaleQueue3D": "",
+        "SMC_ObjectSplitter": "",
+        "SMC_SmoothMerge": "",
+    }
+    | dict.fromkeys(("SMC_ToolCorr", "SMC_AvoidLoop", "SMC_SmoothPath", "SMC_RoundPath"), "")
+    | dict.fromkeys(("SMC_ToolLengthCorr", "SMC_SmoothBSpline", "SMC_SmoothAddAxes"), "")
+)
 
 length = st.floats(8, 40).map(lambda value: round(value, 2))
 corner = st.floats(-150, 150).map(lambda value: round(value, 1))
@@ -104,8 +114,8 @@ def test_a_path_stays_one_path(name: str, objects: list[Geo]) -> None:
 )
 def test_buffers_change_nothing(name: str, objects: list[Geo], capacity: int, gives: int, takes: int) -> None:
     """Spec CNCR-03, CNCR-05, CNCR-06: nothing is lost or doubled, whoever is faster."""
-    if name == "SMC_AvoidLoop":
-        capacity = LARGE  # How large a loop may be is said by the buffer. Spec CNCR-73
+    if name in ("SMC_AvoidLoop", "SMC_SmoothMerge"):
+        capacity = LARGE  # How far they look ahead is said by the buffer. Spec CNCR-73
     block = Block(name, BLOCKS[name])
     large = through(objects, block)
     tiny = through(objects, block, capacity=capacity, gives=gives, takes=takes, cycles=2000)
