@@ -88,6 +88,7 @@ GROUPS: dict[str, tuple[str, str]] = {
     "portals": ("Portals", "龙门系统"),
     "arms": ("SCARA, palletizers and robots", "SCARA、码垛机与机器人"),
     "parallel": ("Parallel kinematics", "并联运动系统"),
+    "preprocessing": ("Path preprocessing", "路径预处理"),
     "frames": ("Directions and coordinate systems", "方向与坐标系"),
     "other": ("Others", "其他"),
     "types": ("Types", "类型"),

@@ -56,7 +56,7 @@ describe('quick fixes', () => {
     expect(fixed(text)).toContain(expected);
   });
   it('propose the codes that look like what was written', () => {
-    expect(likelyCodes('77')).toEqual([17, 37, 75]);
+    expect(likelyCodes('77')).toEqual([17, 37, 70]);
     expect(likelyCodes('12345')).toEqual([]);
   });
 });
