@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+import struct
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from tappet.cnc.letters import END_OF_BLOCK, LETTERS, SKIP
@@ -14,6 +15,11 @@ VARIABLE_TYPES = {
     "UDINT": 17, "LREAL": 22, "SMC_M_PARAMETERS": 100,
 }  # fmt: skip
 """Types of variables to SMC_GCODE_WORD.byVarType: as SMC_VARTYPE, and the parameters of an M function."""
+
+
+_LAYOUT = struct.Struct("<dixxxxQBBxxxxxx")
+WORD_SIZE = _LAYOUT.size
+"""Bytes of an SMC_GCODE_WORD: fValue, diValue, pAdr, byLetter, byVarType."""
 
 
 class CodeWord(NamedTuple):
@@ -34,7 +40,7 @@ class CodeWord(NamedTuple):
             members.append(f"byVarType := {VARIABLE_TYPES[types[self.variable.upper()].upper()]}")
         elif self.value or math.copysign(1.0, self.value) < 0:
             members.append(f"fValue := {real_text(self.value)}")
-            members.append(f"diValue := {min(max(round(self.value), -2147483647), 2147483647)}")
+            members.append(f"diValue := {_integer(self.value)}")
         return f"({', '.join(members)})"
 
 
@@ -74,3 +80,18 @@ def code_words(lines: Iterable[Line]) -> Iterator[CodeWord]:
 def array_initialiser(words: Iterable[CodeWord], types: Mapping[str, str] | None = None) -> str:
     """The words as an initialiser of ARRAY OF SMC_GCODE_WORD. `types`: see `CodeWord.initialiser`."""
     return "[" + ",\n    ".join(word.initialiser(types or {}) for word in words) + "]"
+
+
+def packed(words: Iterable[CodeWord], place_of: Callable[[CodeWord], tuple[int, int]]) -> bytes:
+    """The words as they are in memory. `place_of`: address and byVarType of a word with a variable."""
+    pack = _LAYOUT.pack
+    return b"".join(
+        pack(word.value, _integer(word.value), 0, word.letter, 0)
+        if word.variable is None
+        else pack(0.0, 0, (place := place_of(word))[0], word.letter, place[1])
+        for word in words
+    )
+
+
+def _integer(value: float) -> int:
+    return min(max(round(value), -2147483647), 2147483647)
