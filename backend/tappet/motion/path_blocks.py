@@ -13,7 +13,12 @@ INPUT, OUTPUT, EXECUTE = "poqDataIn", "poqDataOut", "bExecute"
 SIZE, BUFFER = "nSizeOutQueue", "pbyBufferOutQueue"
 _WIRED = frozenset((INPUT, EXECUTE, "bAbort", "bAppend", SIZE, BUFFER))
 """Inputs that the chain itself sets."""
-_NUMBERS = frozenset("REAL LREAL SINT INT DINT LINT USINT UINT UDINT ULINT BYTE WORD DWORD LWORD".split())
+_NUMBERS = frozenset(
+    (
+        *("REAL", "LREAL", "SINT", "INT", "DINT", "LINT", "USINT", "UINT", "UDINT", "ULINT"),
+        *("BYTE", "WORD", "DWORD", "LWORD"),
+    )
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -154,7 +154,7 @@ IF xError AND iFault = -1 THEN
 END_IF
 END_METHOD
 
-(* Takes objects from the front; leaves so many that the next ones are planned with enough of the path in view. *)
+(* Takes objects from the front, and leaves enough that the next ones are planned with the path in view. *)
 METHOD PRIVATE Take
 VAR
     pObject : POINTER TO SMC_GEOINFO;

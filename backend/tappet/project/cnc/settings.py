@@ -82,7 +82,7 @@ class CncSettingsData(Data):
         default=20_000,
         ge=1,
         le=LONGEST_INTERPOLATION_US,
-        description="Cycle time of the interpolator [us]; that of its task, for drawn and real motion to agree.",
+        description="Cycle time of the interpolator [us]; that of its task, or drawn and real motion differ.",
     )
     columns: tuple[TableColumn, ...] = Field(
         default_factory=usual_columns,
