@@ -29,7 +29,8 @@ END_FOR
 iPrograms := g_CNCProgManager.Count;
 pProgram := g_CNCProgManager.GetProgram(0);
 awTags[3] := pProgram^.wCNCREFStructID;
-xOutside := g_CNCQueueManager.GetOutQueue(n) <> 0 OR g_CNCQueueManager.GetOutQueue(-1) <> 0 OR g_CNCProgManager.GetProgram(1) <> 0;
+xOutside := g_CNCQueueManager.GetOutQueue(n) <> 0 OR g_CNCQueueManager.GetOutQueue(-1) <> 0
+    OR g_CNCProgManager.GetProgram(1) <> 0;
 FOR i := 0 TO 199 DO
     IF g_CNCProgManager.Register(ADR(aMany[i])) THEN
         iGood := iGood + 1;

@@ -81,13 +81,16 @@ def one_application(paths: Sequence[Path], only: str | None = None) -> Applicati
 
 def project_applications(project: Project) -> list[ApplicationInput]:
     """Every application of a project with its libraries and tasks."""
+    from tappet.motion.queue_sources import with_queues
     from tappet.project import sources as project_sources
     from tappet.runtime.unit_tests.recordings import recorded_tests
+    from tappet.user_cache import cache_folder
 
+    cache = cache_folder("objects")
     return [
         ApplicationInput(
             application.name,
-            tuple(project_sources.application_sources(project, application.id)),
+            tuple(with_queues(project_sources.application_sources(project, application.id), cache)),
             tuple(project_sources.tasks(project, application.id)),
             BuildOptions(
                 application.name,

@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 import struct
+import zlib
+from base64 import b64decode
 
 from tappet.core import ir
+from tappet.core.program import LoweringError
 from tappet.core.scalars import scalar_of
 from tappet.lang import ast
 from tappet.lang import types as t
+from tappet.lang.attributes import attribute
+
+INITIAL_BYTES = "initial_bytes"
+"""Attribute of a variable whose first state is data that no literal could hold in reasonable time."""
 
 
 def constant_bytes(type_: t.Type, init: ast.Expr) -> bytes | None:
@@ -43,3 +50,21 @@ def scalar_bytes(scalar: ir.Scalar, value: int | float) -> bytes:
             return struct.pack("<f", float("inf") if value > 0 else float("-inf"))
     bits = scalar.size * 8
     return (int(value) & ((1 << bits) - 1)).to_bytes(scalar.size, "little")
+
+
+def given_bytes(decl: ast.VarDecl, type_: t.Type) -> bytes | None:
+    """What `{attribute 'initial_bytes' := '...'}` holds, compressed by zlib and in base 64; None without it.
+
+    Text that is made of objects has it, such as that of a CNC program of 100,000 lines; nobody writes it by
+    hand. Raises LoweringError where it is not as long as the variable.
+    """
+    text = attribute(decl.attributes, INITIAL_BYTES)
+    if text is None:
+        return None
+    data = zlib.decompress(b64decode(text))
+    if len(data) != type_.size:
+        raise LoweringError(
+            f"the data of {decl.name} have {len(data)} bytes, the variable has {type_.size}; "
+            "the library has another structure than the one that the data were made for"
+        )
+    return data

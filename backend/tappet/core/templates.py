@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 from tappet.core import places
-from tappet.core.constant_bytes import constant_bytes
+from tappet.core.constant_bytes import constant_bytes, given_bytes
 from tappet.core.life_cycle import after_init_methods, init_methods
 from tappet.core.program import Program
 from tappet.lang import ast
@@ -107,6 +107,10 @@ class Initialiser:
     ) -> None:
         """Add a declared variable at `offset`."""
         init = decl.init if decl is not None else None
+        data = given_bytes(decl, type_) if decl is not None and decl.attributes else None
+        if data is not None:
+            template.data[offset : offset + type_.size] = data
+            return
         given = _init_arguments(decl)
         if bit is not None:
             if init is not None and init.constant:

@@ -80,6 +80,8 @@ class Segment(Struct, frozen=True, array_like=True):
     """Of a drawn part: the elements in order, each with its first line in the listing, from 0."""
     drawn: bool = False
     """Whether the lines are a listing."""
+    about: tuple[int, int] | None = None
+    """The line does not show the part, it says something about these columns of it: from, to."""
 
     @property
     def document(self) -> str:
@@ -114,20 +116,23 @@ class SourceMap(Struct, frozen=True, array_like=True):
             if line >= found.count:
                 line, column = end_line, end_column
         shift = found.part_line
+        if found.about is not None:
+            line = end_line = 0
+            column, end_column = found.about
         shown = Span(line + shift, column, end_line + shift, end_column)
         return Place(found.object_id, found.part, shown, _element_at(found, line) if found.drawn else None)
 
     def position(self, document: str, position: Position) -> Position | None:
         """Where a position of a document stands in the text; None when it does not show the document."""
         for segment in self.segments:
-            if segment.document == document:
+            if segment.document == document and segment.about is None:
                 return Position(position.line - segment.part_line + segment.line, position.column)
         return None
 
     def lines_of(self, document: str, total: int) -> tuple[int, int] | None:
         """First and behind-the-last line that show a document, in a text of `total` lines."""
         for index, segment in enumerate(self.segments):
-            if segment.document == document:
+            if segment.document == document and segment.about is None:
                 if segment.count is not None:
                     return segment.line, segment.line + segment.count
                 following = self.segments[index + 1].line if index + 1 < len(self.segments) else total
@@ -140,7 +145,7 @@ class SourceMap(Struct, frozen=True, array_like=True):
 
     def shows(self, document: str) -> bool:
         """Whether lines of the text show a document."""
-        return any(segment.document == document for segment in self.segments)
+        return any(segment.document == document and segment.about is None for segment in self.segments)
 
 
 def _element_at(drawn: Segment, line: int) -> str | None:

@@ -146,7 +146,11 @@ class PathService:
         compiled = self._started(order, 0)
         parts: list[Rows] = []
         fault = _drained(compiled.objects(), parts, MOST_OBJECTS, "objects")
-        rows = np.concatenate(parts) if parts else np.zeros(0, compiled.geo)
+        rows = np.zeros(sum(map(len, parts)), compiled.geo)  # concatenate would drop the gaps of the layout
+        place = 0
+        for part in parts:
+            rows[place : place + len(part)] = part
+            place += len(part)
         return PathObjects(rows, fault or order.fault(compiled.fault, rows))
 
     def _started(self, order: _Order, interpolation_us: int) -> PathProgram:

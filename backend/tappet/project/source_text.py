@@ -40,6 +40,11 @@ class SourceWriter:
         segment = Segment(self.line, object_id, "implementation", elements=((element, 0),), drawn=True)
         self._append(segment, text)
 
+    def about(self, object_id: str, line: int, column: int, length: int, text: str) -> None:
+        """Append a line that is about a range of the implementation of an object, which is not text here."""
+        place = (column, column + length)
+        self._append(Segment(self.line, object_id, "implementation", part_line=line, about=place), text)
+
     def keyword(self, text: str | None) -> None:
         """Append a line that is in no part; None appends nothing."""
         if text is not None:

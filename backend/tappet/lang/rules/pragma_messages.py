@@ -1,9 +1,9 @@
 """Message pragmas give their text; a pragma that nobody knows is named.
 
 `{error 'text'}` stops the build, `{warning 'text'}`, `{info 'text'}` and `{text 'text'}` do not. What is
-wrong with a cam stands with the word `cam` in front in the text that is made of it.
+wrong with a cam or a CNC program stands with the word `cam` or `cnc` in front in the text that is made of it.
 
-Source: spec LPRG-05, LPRG-10..LPRG-14, CAM-74.
+Source: spec LPRG-05, LPRG-10..LPRG-14, CAM-74, CNC-37.
 
 Passes:
     VAR a : INT; END_VAR
@@ -34,6 +34,14 @@ Fails:
     a := 1;
 Fails:
     VAR a : INT; END_VAR
+    {warning cnc 'Line 1 has the block number N10 too; a jump goes there'}  (* W1226: of a CNC program *)
+    a := 1;
+Fails:
+    VAR a : INT; END_VAR
+    {error cnc 'G77 is no command'}  (* E0453: the same where it cannot be decoded *)
+    a := 1;
+Fails:
+    VAR a : INT; END_VAR
     {nonsense 17}                  (* W1210: unknown *)
     a := 1;
 """
@@ -49,12 +57,17 @@ from tappet.lang import ast
 if TYPE_CHECKING:
     from tappet.lang.analysis.context import Body
 
-CODES = ("E0433", "E0452", "W1208", "W1210", "W1211", "W1212", "W1225")
+CODES = ("E0433", "E0452", "E0453", "W1208", "W1210", "W1211", "W1212", "W1225", "W1226")
 NODES = (ast.PragmaStmt,)
 _MESSAGE = re.compile(r"(text|info|warning|error)\s+(?:\d\s+)?(['\"]?)(.*?)\2\s*$", re.IGNORECASE | re.DOTALL)
 _CODES = {"text": "W1212", "info": "W1211", "warning": "W1208", "error": "E0433"}
-_CAM = re.compile(r"(warning|error)\s+cam\s+'(.*)'\s*$", re.IGNORECASE | re.DOTALL)
-_CAM_CODES = {"warning": "W1225", "error": "E0452"}
+_OBJECT = re.compile(r"(warning|error)\s+(cam|cnc)\s+'(.*)'\s*$", re.IGNORECASE | re.DOTALL)
+_OBJECT_CODES = {
+    ("warning", "cam"): "W1225",
+    ("error", "cam"): "E0452",
+    ("warning", "cnc"): "W1226",
+    ("error", "cnc"): "E0453",
+}
 _KNOWN = re.compile(
     r"(attribute|define|undefine|if|elsif|else|end_if|include|region|endregion|flag|bitaccess|implicit|"
     r"warning\s+(disable|restore)|analysis|messageguid|s|"
@@ -89,10 +102,10 @@ def report_pragmas(b: Body, pragmas: Iterable[ast.Pragma]) -> None:
         text = pragma.text.strip()
         if _KNOWN.match(text):
             continue
-        cam = _CAM.match(text)
+        about = _OBJECT.match(text)
         message = _MESSAGE.match(text)
-        if cam is not None:
-            b.report(_CAM_CODES[cam[1].lower()], pragma.span, text=cam[2])
+        if about is not None:
+            b.report(_OBJECT_CODES[about[1].lower(), about[2].lower()], pragma.span, text=about[3])
         elif message is not None:
             b.report(_CODES[message[1].lower()], pragma.span, text=message[3])
         else:

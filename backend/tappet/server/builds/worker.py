@@ -28,6 +28,7 @@ from tappet.iec.task import Task
 from tappet.lang.coding_settings import static_analysis
 from tappet.lang.diagnostics import Diagnostic
 from tappet.lang.source import Source
+from tappet.motion.queue_sources import with_queues
 from tappet.project.library_reference import LibraryReference
 from tappet.server.frames import CANCEL, pack_frame, read_frame
 
@@ -107,7 +108,7 @@ class Compiler:
             disabled_warnings=frozenset(order["disabled_warnings"]),
             check_only=order["check_only"],
         )
-        sources = convert(order["sources"], list[Source])
+        sources = with_queues(convert(order["sources"], list[Source]), options.cache)
         tasks = convert(order["tasks"], list[Task])
         result = build_application(sources, tasks, options, previous, session)
         self._partial = result.partial
