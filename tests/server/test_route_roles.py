@@ -53,6 +53,8 @@ OF_VIEWERS = {
     "/api/v1/projects/{project_id}/cams/code",
     "/api/v1/projects/{project_id}/cams/curves",
     "/api/v1/projects/{project_id}/cams/text",
+    "/api/v1/projects/{project_id}/cnc/code",
+    "/api/v1/projects/{project_id}/cnc/info",
     "/api/v1/projects/{project_id}/comparisons",
     "/api/v1/projects/{project_id}/comparisons/files",
     "/api/v1/projects/{project_id}/comparisons/{comparison_id}",

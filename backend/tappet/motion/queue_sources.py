@@ -27,7 +27,6 @@ from tappet.project.cnc.code import (
     QueueOrder,
     attribute_in,
     message_pragma,
-    program_name,
     queue_lines,
     queue_order,
 )
@@ -112,7 +111,7 @@ def _queue(name: str, data: str, settings: bytes, cache: Path | None) -> _Queue:
         return _Queue((), fault)
     text = parse(program.implementation)
     rows = _with_numbers(path, [line.number for line in text.lines])
-    lines = queue_lines(name, program_name(name, text), rows.tobytes(), len(rows), rows.itemsize)
+    lines = queue_lines(QueueOrder(name, program, 0), rows.tobytes(), len(rows), rows.itemsize)
     return _Queue(tuple(lines), None)
 
 

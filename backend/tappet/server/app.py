@@ -22,6 +22,7 @@ from tappet.server.auth import routes as routes_auth
 from tappet.server.builds import routes as routes_build
 from tappet.server.cams import routes as routes_cams
 from tappet.server.cams import running_routes as routes_running_cams
+from tappet.server.cnc import routes as routes_cnc
 from tappet.server.comparisons import routes as routes_comparisons
 from tappet.server.dap import routes as routes_dap
 from tappet.server.docs import routes as routes_docs
@@ -98,6 +99,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_recipe_files.router,
     routes_cams.router,
     routes_running_cams.router,
+    routes_cnc.router,
     routes_tuning.router,
     routes_traces.router,
     routes_traces.settings_router,

@@ -22,6 +22,7 @@ from tappet.server.builds.builder import Builder
 from tappet.server.builds.commissioning import Commissioning
 from tappet.server.builds.packages import PackageStore
 from tappet.server.cams.calculator import CamCalculator
+from tappet.server.cnc.calculator import CncCalculator
 from tappet.server.comparisons.service import Comparisons
 from tappet.server.database import Database
 from tappet.server.debug.service import DebugVariants
@@ -62,6 +63,7 @@ class Services:
     runtimes: RuntimeRegistry
     commissioning: Commissioning
     cams: CamCalculator
+    cnc: CncCalculator
     debug: DebugVariants
     traces: Traces
     test_runs: TestRuns
@@ -146,6 +148,7 @@ class Services:
         await self.views.close()
         await self.commissioning.builder.close()
         await self.cams.close()
+        await self.cnc.close()
         await self.evaluator.close()
         await self.runtimes.close()
         if self.local_runtime is not None:
@@ -194,6 +197,7 @@ def open_services(settings: ServerSettings, connect: Connect) -> Services:
         runtimes=RuntimeRegistry(connect, settings.reconnect_seconds),
         commissioning=commissioning,
         cams=CamCalculator(objects),
+        cnc=CncCalculator(objects),
         debug=DebugVariants(commissioning),
         traces=Traces(
             settings.data_dir / "recordings",

@@ -1136,6 +1136,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/cnc/blocks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Cnc Blocks
+         * @description The blocks of path preprocessing that the library SM3_CNC offers (CNCS-08, CNCS-09).
+         */
+        get: operations["cnc_blocks"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/cnc/code": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Cnc Code
+         * @description The ST of the variables that a program is (CNC-21); the problem `faulty-cnc` for one with errors.
+         */
+        post: operations["cnc_code"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/cnc/info": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Cnc Info
+         * @description Lines, objects, length and duration of a program, by the blocks of the library SM3_CNC (CNC-20).
+         */
+        post: operations["cnc_info"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/compare-import": {
         parameters: {
             query?: never;
@@ -4239,6 +4299,22 @@ export interface components {
             type: "BOOL" | "BYTE" | "SINT" | "USINT" | "WORD" | "INT" | "UINT" | "DWORD" | "DINT" | "UDINT";
         };
         /**
+         * BlockParameter
+         * @description An input of a block that does not have its initial value (CNCS-09).
+         */
+        BlockParameter: {
+            /**
+             * Name
+             * @description The input; `vec.dX` for a member of one that is a structure.
+             */
+            name: string;
+            /**
+             * Value
+             * @description A number, TRUE, FALSE, or a value of an enumeration.
+             */
+            value: string;
+        };
+        /**
          * BodyLanguage
          * @description A language that bodies can be in.
          */
@@ -5261,11 +5337,104 @@ export interface components {
             rms: number | null;
         };
         /**
+         * CncBlock
+         * @description A block of path preprocessing that the library offers (CNCS-08).
+         */
+        CncBlock: {
+            /** Comment */
+            comment: string;
+            /** Name */
+            name: string;
+            /** Parameters */
+            parameters: components["schemas"]["CncBlockParameter"][];
+        };
+        /**
+         * CncBlockParameter
+         * @description An input of a preprocessing block.
+         */
+        CncBlockParameter: {
+            /** Comment */
+            comment: string;
+            /** Initial */
+            initial: string;
+            /** Name */
+            name: string;
+            /** Type */
+            type: string;
+            /**
+             * Values
+             * @description Those of a BOOL or an enumeration; empty for a number.
+             */
+            values: string[];
+        };
+        /**
+         * CncBlocks
+         * @description All of them.
+         */
+        CncBlocks: {
+            /** Blocks */
+            blocks: components["schemas"]["CncBlock"][];
+        };
+        /**
+         * CncCode
+         * @description The ST of the variables that a program is (CNC-21).
+         */
+        CncCode: {
+            /** Text */
+            text: string;
+        };
+        /**
+         * CncFault
+         * @description Why a path ends early.
+         */
+        CncFault: {
+            /** Column */
+            column: number;
+            /**
+             * Length
+             * @description 0: the whole line.
+             */
+            length: number;
+            /**
+             * Line
+             * @description Of the text, from 0.
+             */
+            line: number | null;
+            /** Message */
+            message: string;
+        };
+        /**
+         * CncInfo
+         * @description What the dialog CNC info shows (CNC-20).
+         */
+        CncInfo: {
+            /**
+             * Errors
+             * @description Errors of the text.
+             */
+            errors: number;
+            /**
+             * Library
+             * @description Version of the function blocks.
+             */
+            library: string;
+            /** Lines */
+            lines: number;
+            /**
+             * Name
+             * @description Of the program.
+             */
+            name: string;
+            path: components["schemas"]["CncPathFacts"];
+            /** @description None where the settings have no preprocessing. */
+            preprocessed: components["schemas"]["CncPathFacts"] | null;
+        };
+        /**
          * CncObject
          * @description A CNC program: a path for several axes, as DIN 66025 text or table.
          */
         CncObject: {
-            data: components["schemas"]["CncProgramData"];
+            data: components["schemas"]["CncProgramData-Output"];
             /**
              * Excluded
              * @description From the build.
@@ -5296,10 +5465,102 @@ export interface components {
             subkind: string | null;
         };
         /**
+         * CncOrder
+         * @description A program as its editor has it.
+         */
+        CncOrder: {
+            /**
+             * Object Id
+             * @description The CNC object; its application has the settings.
+             */
+            object_id: string;
+            program: components["schemas"]["CncProgramData-Input"];
+        };
+        /**
+         * CncPathFacts
+         * @description A path in numbers.
+         */
+        CncPathFacts: {
+            /**
+             * Duration
+             * @description [s]; none where the interpolator cannot go the path.
+             */
+            duration: number | null;
+            fault: components["schemas"]["CncFault"] | null;
+            /**
+             * Length
+             * @description [u]
+             */
+            length: number;
+            /** Objects */
+            objects: number;
+        };
+        /**
          * CncPosition
          * @description A position of all axes, in their units.
          */
-        CncPosition: {
+        "CncPosition-Input": {
+            /**
+             * A
+             * @default 0
+             */
+            a?: number;
+            /**
+             * B
+             * @default 0
+             */
+            b?: number;
+            /**
+             * C
+             * @default 0
+             */
+            c?: number;
+            /**
+             * P
+             * @default 0
+             */
+            p?: number;
+            /**
+             * Q
+             * @default 0
+             */
+            q?: number;
+            /**
+             * U
+             * @default 0
+             */
+            u?: number;
+            /**
+             * V
+             * @default 0
+             */
+            v?: number;
+            /**
+             * W
+             * @default 0
+             */
+            w?: number;
+            /**
+             * X
+             * @default 0
+             */
+            x?: number;
+            /**
+             * Y
+             * @default 0
+             */
+            y?: number;
+            /**
+             * Z
+             * @default 0
+             */
+            z?: number;
+        };
+        /**
+         * CncPosition
+         * @description A position of all axes, in their units.
+         */
+        "CncPosition-Output": {
             /**
              * A
              * @default 0
@@ -5360,7 +5621,76 @@ export interface components {
          * CncProgramData
          * @description A CNC program.
          */
-        CncProgramData: {
+        "CncProgramData-Input": {
+            /**
+             * Acceleration
+             * @description Of elements without E [u/s²].
+             * @default 100
+             */
+            acceleration?: number;
+            /**
+             * Compile Mode
+             * @description What is made of it: SMC_CNC_REF, SMC_OUTQUEUE, or a file in the controller (CNC-11).
+             * @default cnc_ref
+             * @enum {string}
+             */
+            compile_mode?: "cnc_ref" | "out_queue" | "file";
+            /**
+             * Deceleration
+             * @description Of elements without E- [u/s²].
+             * @default 100
+             */
+            deceleration?: number;
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build?: boolean;
+            /**
+             * Implementation
+             * @description The program, DIN 66025, a block a line.
+             * @default
+             */
+            implementation?: string;
+            /**
+             * Offline Values
+             * @default []
+             */
+            offline_values?: components["schemas"]["OfflineValue-Input"][];
+            /**
+             * Queue Size
+             * @description Elements that path preprocessing looks ahead.
+             * @default 100
+             */
+            queue_size?: number;
+            /** @description Where the first element starts. */
+            start?: components["schemas"]["CncPosition-Input"];
+            /**
+             * Step Suppression
+             * @description Blocks that begin with / are left out (CNC-81).
+             * @default false
+             */
+            step_suppression?: boolean;
+            /**
+             * Velocity
+             * @description Of elements without F [u/s].
+             * @default 0
+             */
+            velocity?: number;
+            /**
+             * View
+             * @description The view that opens with the object (CNC-10).
+             * @default text
+             * @enum {string}
+             */
+            view?: "text" | "table";
+        };
+        /**
+         * CncProgramData
+         * @description A CNC program.
+         */
+        "CncProgramData-Output": {
             /**
              * Acceleration
              * @description Of elements without E [u/s²].
@@ -5396,7 +5726,7 @@ export interface components {
              * Offline Values
              * @default []
              */
-            offline_values: components["schemas"]["OfflineValue"][];
+            offline_values: components["schemas"]["OfflineValue-Output"][];
             /**
              * Queue Size
              * @description Elements that path preprocessing looks ahead.
@@ -5404,7 +5734,7 @@ export interface components {
              */
             queue_size: number;
             /** @description Where the first element starts. */
-            start: components["schemas"]["CncPosition"];
+            start: components["schemas"]["CncPosition-Output"];
             /**
              * Step Suppression
              * @description Blocks that begin with / are left out (CNC-81).
@@ -5435,6 +5765,18 @@ export interface components {
              * @description Columns of the table editor in their order; the type of an element is always the first.
              */
             columns: components["schemas"]["TableColumn"][];
+            /**
+             * Interpolation Time Us
+             * @description Cycle time of the interpolator [us]; that of its task, or drawn and real motion differ.
+             * @default 20000
+             */
+            interpolation_time_us: number;
+            /**
+             * Preprocessing
+             * @description What changes paths between decoder and velocity check, in the order of execution.
+             * @default []
+             */
+            preprocessing: components["schemas"]["PreprocessingBlock"][];
         };
         /**
          * CncSettingsObject
@@ -8386,7 +8728,23 @@ export interface components {
          * OfflineValue
          * @description What a variable counts as where no controller runs (CNC-17).
          */
-        OfflineValue: {
+        "OfflineValue-Input": {
+            /**
+             * Name
+             * @description The variable, as it stands between the dollar signs.
+             */
+            name: string;
+            /**
+             * Value
+             * @default 0
+             */
+            value?: number;
+        };
+        /**
+         * OfflineValue
+         * @description What a variable counts as where no controller runs (CNC-17).
+         */
+        "OfflineValue-Output": {
             /**
              * Name
              * @description The variable, as it stands between the dollar signs.
@@ -8948,6 +9306,22 @@ export interface components {
              * @description What the declaration says: `program`, `struct` ...
              */
             subkind: string | null;
+        };
+        /**
+         * PreprocessingBlock
+         * @description An instance of a function block that reads a path queue and writes another one (CNCS-03).
+         */
+        PreprocessingBlock: {
+            /**
+             * Block
+             * @description Name of the block in the library SM3_CNC.
+             */
+            block: string;
+            /**
+             * Parameters
+             * @default []
+             */
+            parameters: components["schemas"]["BlockParameter"][];
         };
         /**
          * Presence
@@ -15469,6 +15843,134 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    cnc_blocks: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CncBlocks"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    cnc_code: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CncOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CncCode"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    cnc_info: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CncOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CncInfo"];
+                };
             };
             /** @description The request was refused */
             422: {

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from tappet.cnc.checks import check
-from tappet.cnc.parser import parse
+from tappet.cnc.parser import parse, read_lines
 from tappet.cnc.word_list import CodeWord, code_words, default_words, packed, real_text
 from tappet.cnc.words import Line, Problem, Program
 from tappet.project.axes.variables import NOT_WRITTEN_BY_HAND
@@ -55,7 +55,7 @@ def write_program(item: ProjectObject, writer: SourceWriter) -> None:
         return
     program = parse(data.implementation)
     problems = check(program.lines)
-    words = _used(item.data_as(CncProgramData), program)
+    words = used_words(data, program)
     variables = [(line, word) for line, word in words if word.variable is not None]
     if data.compile_mode == "out_queue":
         problems += [Problem(*_place(line, word), _in_queue(word), "warning") for line, word in variables]
@@ -138,18 +138,17 @@ def attribute_in(line: str, name: str) -> bytes | None:
     )
 
 
-def queue_lines(name: str, program_name: str, objects: bytes, count: int, size: int) -> list[str]:
+def queue_lines(order: QueueOrder, objects: bytes, count: int, size: int) -> list[str]:
     """The three lines of a queue of `count` objects of `size` bytes in place of its order."""
     capacity = count + QUEUE_ROOM
     data = packed_bytes(objects + bytes(QUEUE_ROOM * size))
-    state = hashlib.blake2s(objects + program_name.encode(), digest_size=8).hexdigest()
+    variable = queue_variable(order.name, order.data, count)
+    state = hashlib.blake2s(objects + variable.encode(), digest_size=8).hexdigest()
     mark = f"{{attribute 'init_on_onlchange' := '{state}'}}"
     return [
         f"    {mark} {{attribute 'initial_bytes' := '{data}'}}",
-        f"    {name}_A : ARRAY[0..{capacity - 1}] OF {LIBRARY}.SMC_GEOINFO;",
-        f"    {mark} {name} : {LIBRARY}.SMC_OUTQUEUE := (pbyBuffer := ADR({name}_A), "
-        f"nCapacity := {capacity}, nWritePos := {count}, bEndOfList := TRUE, byGenerator := {EDITOR}, "
-        f"nStored := {count}, nChecked := {count}, strProgramName := {_string(program_name)});",
+        f"    {order.name}_A : ARRAY[0..{capacity - 1}] OF {LIBRARY}.SMC_GEOINFO;",
+        f"    {mark} {variable}",
     ]
 
 
@@ -163,13 +162,39 @@ _FILE_MODE = (
 )
 
 
-def program_name(name: str, program: Program) -> str:
-    """What strProgramName is: the header line, or the name of the object."""
-    return (program.name or name)[:_LONGEST_NAME]
+def program_name(name: str, text: str) -> str:
+    """What strProgramName is: the header line of a text, or the name of the object."""
+    header = next(
+        (line.header for line in read_lines(text.split("\n", 100)[:100]) if line.header is not None), ""
+    )
+    return (header or name)[:_LONGEST_NAME]
 
 
-def _used(data: CncProgramData, program: Program) -> list[tuple[Line | None, CodeWord]]:
-    """The words in the order of SMC_CNC_REF, each with the line it comes from."""
+def reference_variable(name: str, data: CncProgramData, words: int) -> str:
+    """The declaration of a program of words."""
+    start = ", ".join(
+        f"{member} := {real_text(getattr(data.start, axis))}" for axis, member in _MEMBERS.items()
+    )
+    title = _string(program_name(name, data.implementation))
+    return (
+        f"{name} : {LIBRARY}.SMC_CNC_REF := (nElements := {words}, pgc := ADR({name}_A), "
+        f"piStartPosition := ({start}), strProgramName := {title});"
+    )
+
+
+def queue_variable(name: str, data: CncProgramData, objects: int) -> str:
+    """The declaration of a queue of path objects; it has room for some more."""
+    title = _string(program_name(name, data.implementation))
+    return (
+        f"{name} : {LIBRARY}.SMC_OUTQUEUE := (pbyBuffer := ADR({name}_A), "
+        f"nCapacity := {objects + QUEUE_ROOM}, nWritePos := {objects}, bEndOfList := TRUE, "
+        f"byGenerator := {EDITOR}, nStored := {objects}, nChecked := {objects}, strProgramName := {title});"
+    )
+
+
+def used_words(data: CncProgramData, program: Program) -> list[tuple[Line | None, CodeWord]]:
+    """The words of SMC_CNC_REF in their order, each with the line it comes from; the default dynamics of the
+    properties stand in front."""
     found: list[tuple[Line | None, CodeWord]] = [
         (None, word) for word in default_words(data.velocity, data.acceleration, data.deceleration)
     ]
@@ -200,7 +225,7 @@ def _write_words(
     name = item.name
     content = packed((word for _, word in words), lambda word: (0, 0))
     state = hashlib.blake2s(content, digest_size=8)
-    state.update(f"{data.start.model_dump_json()} {program_name(name, program)}".encode())
+    state.update(reference_variable(name, data, len(words)).encode())
     state.update(" ".join(word.variable or "" for _, word in variables).encode())
     mark = f"    {{attribute 'init_on_onlchange' := '{state.hexdigest()}'}}"
     writer.part(
@@ -216,15 +241,7 @@ def _write_words(
         for number, (place, (line, word)) in enumerate(zip(places, variables, strict=True)):
             call = f"{LIBRARY}.WordVariable(ADR({name}_A[{place}]), {word.variable})"
             writer.about(item.id, *_place(line, word), call + ("," if number < last else "];"))
-    start = ", ".join(
-        f"{member} := {real_text(getattr(data.start, axis))}" for axis, member in _MEMBERS.items()
-    )
-    writer.part(
-        item.id,
-        "declaration",
-        f"{mark}\n    {name} : {LIBRARY}.SMC_CNC_REF := (nElements := {len(words)}, pgc := ADR({name}_A), "
-        f"piStartPosition := ({start}), strProgramName := {_string(program_name(name, program))});",
-    )
+    writer.part(item.id, "declaration", f"{mark}\n    {reference_variable(name, data, len(words))}")
 
 
 def _write_findings(
