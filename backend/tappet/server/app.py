@@ -40,6 +40,7 @@ from tappet.server.lsp import routes as routes_lsp
 from tappet.server.metrics import routes as routes_metrics
 from tappet.server.objects import routes as routes_objects
 from tappet.server.online import routes as routes_online
+from tappet.server.paths import routes as routes_paths
 from tappet.server.persistent import routes as routes_persistent
 from tappet.server.personal_settings import routes as routes_settings
 from tappet.server.projects import routes as routes_projects
@@ -94,6 +95,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     routes_history.router,
     routes_comparisons.router,
     routes_scenes.router,
+    routes_paths.router,
     routes_persistent.router,
     routes_recipes.router,
     routes_recipe_files.router,

@@ -30,6 +30,7 @@ from tappet.server.events.service import ProjectEvents
 from tappet.server.metrics.service import Metrics
 from tappet.server.online.quota import UserQuotas
 from tappet.server.online.sampler import SamplerPool
+from tappet.server.paths.service import PathViews
 from tappet.server.runtimes.links import RuntimeLink, RuntimeRegistry
 from tappet.server.runtimes.local import LocalRuntime
 from tappet.server.runtimes.plc_client import Connect
@@ -78,8 +79,15 @@ class Services:
     local_runtime: LocalRuntime | None = None
     _events: ProjectEvents | None = None
     _analysis: AnalysisService | None = None
+    _paths: PathViews | None = None
     _housekeeping: asyncio.Task[None] | None = None
     _samplers: dict[RuntimeLink, SamplerPool] = field(default_factory=dict)
+
+    @property
+    def paths(self) -> PathViews:
+        """Views of CNC paths, once the server has started."""
+        assert self._paths is not None, "the server has started"
+        return self._paths
 
     def samplers(self, link: RuntimeLink) -> SamplerPool:
         """The samplers of a runtime, shared by all who watch it."""
@@ -105,6 +113,7 @@ class Services:
         """Begins the work in the background."""
         self._housekeeping = asyncio.create_task(self._keep_house(), name="housekeeping")
         self._events = ProjectEvents(self.store)
+        self._paths = PathViews(self.views, self.settings.data_dir / "objects")
         limits = Limits(self.settings.analysis_memory_mib, self.settings.analysis_seconds)
         self._analysis = AnalysisService(self.store, limits, idle_s=self.settings.analysis_idle_seconds)
         if self.settings.local_runtime:
