@@ -979,8 +979,7 @@ export interface paths {
         put?: never;
         /**
          * Compare Version
-         * @description What it costs to bring that version back: whether it goes online, and what happens to variables; which
-         *     persistent ones a download cannot keep.
+         * @description What it costs to bring that version back: whether it goes online, and what happens to variables.
          */
         post: operations["compare_version"];
         delete?: never;
@@ -1130,66 +1129,6 @@ export interface paths {
          * @description Forget what builds and downloads of all applications of the project have left.
          */
         post: operations["clean_all"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/projects/{project_id}/cnc/blocks": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /**
-         * Cnc Blocks
-         * @description The blocks of path preprocessing that the library SM3_CNC offers (CNCS-08, CNCS-09).
-         */
-        get: operations["cnc_blocks"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/projects/{project_id}/cnc/code": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Cnc Code
-         * @description The ST of the variables that a program is (CNC-21); the problem `faulty-cnc` for one with errors.
-         */
-        post: operations["cnc_code"];
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/projects/{project_id}/cnc/info": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        get?: never;
-        put?: never;
-        /**
-         * Cnc Info
-         * @description Lines, objects, length and duration of a program, by the blocks of the library SM3_CNC (CNC-20).
-         */
-        post: operations["cnc_info"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1700,6 +1639,146 @@ export interface paths {
          * @description Move a view that was opened for a past cycle to another one.
          */
         put: operations["show_past_cycle"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/paths": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Begin Path View
+         * @description Begin a view for one editor of a CNC program; nothing is drawn in it yet.
+         */
+        post: operations["begin_path_view"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/paths/{view_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * End Path View
+         * @description End a view.
+         */
+        delete: operations["end_path_view"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/paths/{view_id}/line": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Choose Line
+         * @description Show the elements of a line as chosen.
+         */
+        put: operations["choose_line"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/paths/{view_id}/looks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Draw In Another Way
+         * @description Draw the same program with other colours, with or without preprocessing and grid.
+         */
+        put: operations["draw_in_another_way"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/paths/{view_id}/motion": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Path Motion
+         * @description The motion on the path that is drawn, by the interpolator of the library SM3_CNC.
+         */
+        get: operations["path_motion"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/paths/{view_id}/pick": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Pick Element
+         * @description The element that is seen where somebody points.
+         */
+        post: operations["pick_element"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/paths/{view_id}/program": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Draw Path
+         * @description Draw a program, by the decoder of the library SM3_CNC and with the offline values of variables.
+         */
+        put: operations["draw_path"];
         post?: never;
         delete?: never;
         options?: never;
@@ -5337,97 +5416,23 @@ export interface components {
             rms: number | null;
         };
         /**
-         * CncBlock
-         * @description A block of path preprocessing that the library offers (CNCS-08).
+         * ChosenElements
+         * @description The elements of a line.
          */
-        CncBlock: {
-            /** Comment */
-            comment: string;
-            /** Name */
-            name: string;
-            /** Parameters */
-            parameters: components["schemas"]["CncBlockParameter"][];
+        ChosenElements: {
+            /** Elements */
+            elements: components["schemas"]["PathElement"][];
         };
         /**
-         * CncBlockParameter
-         * @description An input of a preprocessing block.
+         * ChosenLine
+         * @description The line whose elements are chosen.
          */
-        CncBlockParameter: {
-            /** Comment */
-            comment: string;
-            /** Initial */
-            initial: string;
-            /** Name */
-            name: string;
-            /** Type */
-            type: string;
-            /**
-             * Values
-             * @description Those of a BOOL or an enumeration; empty for a number.
-             */
-            values: string[];
-        };
-        /**
-         * CncBlocks
-         * @description All of them.
-         */
-        CncBlocks: {
-            /** Blocks */
-            blocks: components["schemas"]["CncBlock"][];
-        };
-        /**
-         * CncCode
-         * @description The ST of the variables that a program is (CNC-21).
-         */
-        CncCode: {
-            /** Text */
-            text: string;
-        };
-        /**
-         * CncFault
-         * @description Why a path ends early.
-         */
-        CncFault: {
-            /** Column */
-            column: number;
-            /**
-             * Length
-             * @description 0: the whole line.
-             */
-            length: number;
+        ChosenLine: {
             /**
              * Line
-             * @description Of the text, from 0.
+             * @description None: no one.
              */
-            line: number | null;
-            /** Message */
-            message: string;
-        };
-        /**
-         * CncInfo
-         * @description What the dialog CNC info shows (CNC-20).
-         */
-        CncInfo: {
-            /**
-             * Errors
-             * @description Errors of the text.
-             */
-            errors: number;
-            /**
-             * Library
-             * @description Version of the function blocks.
-             */
-            library: string;
-            /** Lines */
-            lines: number;
-            /**
-             * Name
-             * @description Of the program.
-             */
-            name: string;
-            path: components["schemas"]["CncPathFacts"];
-            /** @description None where the settings have no preprocessing. */
-            preprocessed: components["schemas"]["CncPathFacts"] | null;
+            line?: number | null;
         };
         /**
          * CncObject
@@ -5463,37 +5468,6 @@ export interface components {
              * @description What the declaration says: `program`, `struct` ...
              */
             subkind: string | null;
-        };
-        /**
-         * CncOrder
-         * @description A program as its editor has it.
-         */
-        CncOrder: {
-            /**
-             * Object Id
-             * @description The CNC object; its application has the settings.
-             */
-            object_id: string;
-            program: components["schemas"]["CncProgramData-Input"];
-        };
-        /**
-         * CncPathFacts
-         * @description A path in numbers.
-         */
-        CncPathFacts: {
-            /**
-             * Duration
-             * @description [s]; none where the interpolator cannot go the path.
-             */
-            duration: number | null;
-            fault: components["schemas"]["CncFault"] | null;
-            /**
-             * Length
-             * @description [u]
-             */
-            length: number;
-            /** Objects */
-            objects: number;
         };
         /**
          * CncPosition
@@ -7926,31 +7900,6 @@ export interface components {
             tasks: string[];
         };
         /**
-         * LoadOrder
-         * @description How to bring an application into the runtime.
-         */
-        LoadOrder: {
-            /**
-             * Initialise Persistent
-             * @description Give all persistent variables their initial values: a reset origin before a download.
-             * @default false
-             */
-            initialise_persistent?: boolean;
-            /**
-             * Mode
-             * @enum {string}
-             */
-            mode: "download" | "online_change";
-            /** Runtime Id */
-            runtime_id: string;
-            /**
-             * Start
-             * @description Start after a download; an online change never stops.
-             * @default true
-             */
-            start?: boolean;
-        };
-        /**
          * LogEntry
          * @description One line of a runtime's log.
          */
@@ -9025,6 +8974,240 @@ export interface components {
             values: components["schemas"]["Value"][];
         };
         /**
+         * PathElement
+         * @description An element of the path.
+         */
+        PathElement: {
+            /**
+             * Arrive
+             * @description Unit vector of the path at the end.
+             */
+            arrive: number[];
+            /**
+             * End
+             * @description X, Y and Z [u].
+             */
+            end: number[];
+            /**
+             * Kind
+             * @description SMC_MOVTYP.
+             */
+            kind: number;
+            /**
+             * Leave
+             * @description Unit vector of the path at the start; 0 where it does not move.
+             */
+            leave: number[];
+            /** Length */
+            length: number;
+            /** Line */
+            line: number;
+            /**
+             * Number
+             * @description Among all objects, from 0.
+             */
+            number: number;
+            /**
+             * Start
+             * @description X, Y and Z [u].
+             */
+            start: number[];
+        };
+        /**
+         * PathLegend
+         * @description The colours of values.
+         */
+        PathLegend: {
+            /**
+             * By Motion
+             * @description The values are those of the interpolated motion, else those of the program.
+             */
+            by_motion: boolean;
+            /**
+             * Colours
+             * @description From the least value to the greatest one, evenly.
+             */
+            colours: string[];
+            /** High */
+            high: number;
+            /** Low */
+            low: number;
+        };
+        /**
+         * PathLooks
+         * @description How a path is drawn.
+         */
+        PathLooks: {
+            /**
+             * Colouring
+             * @description What the colours stand for.
+             * @default kind
+             * @enum {string}
+             */
+            colouring?: "kind" | "velocity" | "acceleration" | "curvature";
+            /**
+             * Dark
+             * @default false
+             */
+            dark?: boolean;
+            /**
+             * Grid
+             * @description Shows the grid in the plane Z = 0 (CNC-52).
+             * @default true
+             */
+            grid?: boolean;
+            /**
+             * Preprocessed
+             * @description Draws the path behind preprocessing, and the original faint behind it.
+             * @default false
+             */
+            preprocessed?: boolean;
+        };
+        /**
+         * PathMark
+         * @description A place on the path.
+         */
+        PathMark: {
+            /** Line */
+            line: number;
+            /**
+             * Number
+             * @description H of a switch point.
+             * @default 0
+             */
+            number: number;
+            /**
+             * Place
+             * @description X, Y and Z [u].
+             */
+            place: number[];
+        };
+        /**
+         * PathOrder
+         * @description A program to draw, as the editor has it, and how.
+         */
+        PathOrder: {
+            /**
+             * @default {
+             *       "colouring": "kind",
+             *       "dark": false,
+             *       "grid": true,
+             *       "preprocessed": false
+             *     }
+             */
+            looks?: components["schemas"]["PathLooks"];
+            /**
+             * Object Id
+             * @description The CNC object.
+             */
+            object_id: string;
+            /** @description None: as it is stored. */
+            program?: components["schemas"]["CncProgramData-Input"] | null;
+        };
+        /**
+         * PathSamples
+         * @description The interpolated motion on the path that is drawn, thinned out; lists of one length.
+         */
+        PathSamples: {
+            /**
+             * Acceleration
+             * @description Along the path [u/s²].
+             */
+            acceleration: number[];
+            /** Duration */
+            duration: number;
+            /** Fault */
+            fault: string | null;
+            /**
+             * Line
+             * @description -1: none.
+             */
+            line: number[];
+            /** Place */
+            place: number[][];
+            /** Time */
+            time: number[];
+            /**
+             * Velocity
+             * @description On the path [u/s].
+             */
+            velocity: number[];
+        };
+        /**
+         * PathSummary
+         * @description What was drawn.
+         */
+        PathSummary: {
+            /**
+             * Centre
+             * @description A place of the picture is (place - centre) * scale.
+             */
+            centre: number[];
+            /** End */
+            end: number[] | null;
+            /**
+             * Ends
+             * @description Of all elements that move, unless they are many.
+             */
+            ends: components["schemas"]["PathMark"][];
+            /**
+             * Fault
+             * @description Why the path ends before its program.
+             */
+            fault: string | null;
+            /** Fault Line */
+            fault_line: number | null;
+            /**
+             * High
+             * @description X, Y and Z [u].
+             */
+            high: number[];
+            legend: components["schemas"]["PathLegend"] | null;
+            /** Length */
+            length: number;
+            /**
+             * Low
+             * @description X, Y and Z [u].
+             */
+            low: number[];
+            /** Objects */
+            objects: number;
+            /** Scale */
+            scale: number;
+            /** Start */
+            start: number[] | null;
+            /** Switches */
+            switches: components["schemas"]["PathMark"][];
+        };
+        /**
+         * PathViewAddress
+         * @description A view that was begun.
+         */
+        PathViewAddress: {
+            /**
+             * Path
+             * @description Where it is shown; put it into a frame of a logged-in page.
+             */
+            path: string;
+            /** View Id */
+            view_id: string;
+        };
+        /**
+         * PathViewOrder
+         * @description A view to begin.
+         */
+        PathViewOrder: {
+            /**
+             * @default {
+             *       "colouring": "kind",
+             *       "dark": false,
+             *       "grid": true,
+             *       "preprocessed": false
+             *     }
+             */
+            looks?: components["schemas"]["PathLooks"];
+        };
+        /**
          * PersistentChange
          * @description A persistent variable whose value a download cannot keep.
          */
@@ -9088,6 +9271,18 @@ export interface components {
              * @description What the declaration says: `program`, `struct` ...
              */
             subkind: string | null;
+        };
+        /**
+         * PickedElement
+         * @description What is seen where somebody points.
+         */
+        PickedElement: {
+            element: components["schemas"]["PathElement"] | null;
+            /**
+             * Place
+             * @description On the element.
+             */
+            place: number[] | null;
         };
         /**
          * Pin
@@ -9499,6 +9694,27 @@ export interface components {
              * @description What the declaration says: `program`, `struct` ...
              */
             subkind: string | null;
+        };
+        /**
+         * Ray
+         * @description Where somebody points.
+         */
+        Ray: {
+            /**
+             * Ahead
+             * @description X, Y and Z [u].
+             */
+            ahead: number[];
+            /**
+             * Angle
+             * @description How far beside the ray an element may be seen [rad].
+             */
+            angle: number;
+            /**
+             * Origin
+             * @description X, Y and Z [u].
+             */
+            origin: number[];
         };
         /**
          * ReadOrder
@@ -10318,6 +10534,25 @@ export interface components {
              * @description Of the drive, in Nm.
              */
             torque: number[] | null;
+        };
+        /**
+         * RestoreOrder
+         * @description How to bring an earlier version back.
+         */
+        RestoreOrder: {
+            /**
+             * Mode
+             * @enum {string}
+             */
+            mode: "download" | "online_change";
+            /** Runtime Id */
+            runtime_id: string;
+            /**
+             * Start
+             * @description Start after a download; an online change never stops.
+             * @default true
+             */
+            start?: boolean;
         };
         /**
          * Result
@@ -15573,7 +15808,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["LoadOrder"];
+                "application/json": components["schemas"]["RestoreOrder"];
             };
         };
         responses: {
@@ -15843,134 +16078,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
-            };
-            /** @description The request was refused */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemDetails"];
-                };
-            };
-            /** @description The request was refused */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemDetails"];
-                };
-            };
-        };
-    };
-    cnc_blocks: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                project_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["CncBlocks"];
-                };
-            };
-            /** @description The request was refused */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemDetails"];
-                };
-            };
-            /** @description The request was refused */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemDetails"];
-                };
-            };
-        };
-    };
-    cnc_code: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                project_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["CncOrder"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["CncCode"];
-                };
-            };
-            /** @description The request was refused */
-            422: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemDetails"];
-                };
-            };
-            /** @description The request was refused */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["ProblemDetails"];
-                };
-            };
-        };
-    };
-    cnc_info: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                project_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody: {
-            content: {
-                "application/json": components["schemas"]["CncOrder"];
-            };
-        };
-        responses: {
-            /** @description Successful Response */
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/json": components["schemas"]["CncInfo"];
-                };
             };
             /** @description The request was refused */
             422: {
@@ -17246,6 +17353,310 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    begin_path_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PathViewOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PathViewAddress"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    end_path_view: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    choose_line: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ChosenLine"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ChosenElements"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    draw_in_another_way: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PathLooks"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PathSummary"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    path_motion: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PathSamples"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    pick_element: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Ray"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PickedElement"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    draw_path: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+                view_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PathOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PathSummary"];
+                };
             };
             /** @description The request was refused */
             422: {

@@ -23,6 +23,7 @@ import { CncToolbar, type CncView } from './CncToolbar';
 import { openProgram, type CncDocument } from './cncDocument';
 import { registerCncLanguage } from './language';
 import { CNC_TEXT } from './languageName';
+import { PathPane } from './path/PathPane';
 import { conditionsOf, startOf, type CncProgramData } from './properties';
 import { useCncActs, type CncScene } from './useCncActs';
 
@@ -62,7 +63,7 @@ function useProgram({ monaco, document, object }: Opened): CncDocument {
 }
 
 function OpenCnc(props: Opened) {
-  const { panelId, projectId, objectId, document, monaco, object, reveal } = props;
+  const { panelId, projectId, objectId, document, monaco, object, reveal, visible } = props;
   const t = useText();
   const program = useProgram(props);
   const [view, setView] = useState<CncView>(object.data.view);
@@ -71,6 +72,8 @@ function OpenCnc(props: Opened) {
   const locked = useEditingLock(object, editor);
   const changed = useStore(document.store, (state) => phaseOf(state) !== 'clean');
   const [share, setShare] = useState(0.5);
+  const [graphic, setGraphic] = useState(true);
+  const [above, setAbove] = useState(0.4);
   const scene = useRef<CncScene | null>(null);
   useEffect(() => {
     setDirty(panelId, changed);
@@ -98,7 +101,7 @@ function OpenCnc(props: Opened) {
       name={object.name}
       readOnly={locked}
       line={line}
-      follows={view === 'both'}
+      follows={view === 'both' || graphic}
       onLine={setLine}
       onEditor={setEditor}
     />
@@ -116,13 +119,36 @@ function OpenCnc(props: Opened) {
       onLine={setLine}
     />
   );
+  const written =
+    text && table ? <Splitter top={text} bottom={table} share={share} onShare={setShare} /> : text || table;
+  const path = (
+    <PathPane
+      projectId={projectId}
+      objectId={objectId}
+      program={program}
+      data={object.data}
+      changed={changed}
+      locked={locked}
+      visible={visible}
+      line={line}
+      onLine={setLine}
+    />
+  );
   return (
     <div className={styles.page} aria-label={t('cnc.editorOf', { name: object.name })}>
-      <CncToolbar acts={acts} view={view} onView={setView} program={program} data={object.data} />
+      <CncToolbar
+        acts={acts}
+        view={view}
+        onView={setView}
+        graphic={graphic}
+        onGraphic={setGraphic}
+        program={program}
+        data={object.data}
+      />
       <DocumentBars monaco={monaco} document={document} />
       <OnlineEditBar object={object} />
       <div className={styles.panes}>
-        {text && table ? <Splitter top={text} bottom={table} share={share} onShare={setShare} /> : text || table}
+        {graphic ? <Splitter top={written} bottom={path} share={above} onShare={setAbove} /> : written}
       </div>
     </div>
   );

@@ -1,4 +1,4 @@
-import { SquareMenu, SquareSplitVertical, Table2, TextInitial } from 'lucide-react';
+import { Box, SquareMenu, SquareSplitVertical, Table2, TextInitial } from 'lucide-react';
 import { useText } from '@/i18n';
 import { Button, IconButton } from '@/ui/Button';
 import { DropdownMenu } from '@/ui/Menu';
@@ -23,12 +23,15 @@ interface CncToolbarProps {
   acts: Handlers;
   view: CncView;
   onView: (view: CncView) => void;
+  /** The path is shown in 3D. */
+  graphic: boolean;
+  onGraphic: (graphic: boolean) => void;
   program: CncDocument;
   data: CncProgramData;
 }
 
 /** The views of the program, what is wrong with it, and the CNC menu. */
-export function CncToolbar({ acts, view, onView, program, data }: CncToolbarProps) {
+export function CncToolbar({ acts, view, onView, graphic, onGraphic, program, data }: CncToolbarProps) {
   const t = useText();
   useProgramVersion(program);
   const errors = program.found.filter(({ severity }) => severity === 'error').length;
@@ -46,6 +49,12 @@ export function CncToolbar({ acts, view, onView, program, data }: CncToolbarProp
           />
         ))}
       </div>
+      <IconButton
+        icon={Box}
+        label={t(graphic ? 'cnc.path.hide' : 'cnc.path.show')}
+        pressed={graphic}
+        onClick={() => onGraphic(!graphic)}
+      />
       <span className={styles.facts}>
         <span>{t(`cnc.mode.${data.compile_mode}`)}</span>
         <span>

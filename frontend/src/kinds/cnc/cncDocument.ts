@@ -76,12 +76,17 @@ export class CncDocument {
     return edits.flatMap((edit) => this.operation(edit));
   }
 
-  /** Carries out edits that do not overlap, as one step of the undo stack. */
-  apply(edits: readonly LinesEdit[]): void {
+  /** Carries out edits that do not overlap, as one step of the undo stack, or `joined` with those before. */
+  apply(edits: readonly LinesEdit[], how: 'step' | 'joined' = 'step'): void {
     const operations = this.operations(edits);
     if (operations.length === 0) return;
-    this.model.pushStackElement();
+    if (how === 'step') this.closeStep();
     this.model.pushEditOperations([], operations, () => null);
+    if (how === 'step') this.closeStep();
+  }
+
+  /** What follows is another step of the undo stack. */
+  closeStep(): void {
     this.model.pushStackElement();
   }
 
