@@ -72,6 +72,12 @@ ERRORS = {
     "TOO_SHORT": 10045,
     "CIRCLE": 10046,
     "NOT_INTERRUPTED": 10047,
+    "MASTER_IS_SLAVE": 10007,
+    "IN_USE": 10005,
+    "UNREACHABLE": 10049,
+    "SINGULAR": 10050,
+    "NUMBER_OF_AXES": 10051,
+    "PATH": 10052,
 }
 
 _AXIS = (
@@ -137,8 +143,9 @@ def _package() -> CodePackage:
 class AxisGroup:
     """The running program."""
 
-    def __init__(self, application: LoadedApplication) -> None:
+    def __init__(self, application: LoadedApplication, axes: tuple[str, ...] = AXES) -> None:
         self._application = application
+        self.axes = axes
         self.cycles = 0
 
     def put(self, block: str, **inputs: object) -> None:
@@ -175,6 +182,10 @@ class AxisGroup:
         """So many cycles later."""
         self.cycle(round(seconds / CYCLE))
 
+    @property
+    def acceleration(self) -> np.ndarray:
+        return np.array([self.number(f"{axis}.fSetAcceleration") for axis in self.axes])
+
     def text(self, path: str) -> str:
         return self._application.literal(f"Main.{path}")
 
@@ -202,11 +213,11 @@ class AxisGroup:
 
     @property
     def position(self) -> np.ndarray:
-        return np.array([self.number(f"{axis}.fSetPosition") for axis in AXES])
+        return np.array([self.number(f"{axis}.fSetPosition") for axis in self.axes])
 
     @property
     def velocity(self) -> np.ndarray:
-        return np.array([self.number(f"{axis}.fSetVelocity") for axis in AXES])
+        return np.array([self.number(f"{axis}.fSetVelocity") for axis in self.axes])
 
     @property
     def path_velocity(self) -> float:
