@@ -7,6 +7,7 @@ from typing import Any
 
 from tappet.cli.inputs import project_applications
 from tappet.codegen.build import BuildResult, build_application
+from tappet.codegen.package import CodePackage
 from tappet.project import edit
 from tappet.project.model import Project, ProjectObject
 from tappet.project.new_project import new_project
@@ -47,9 +48,11 @@ def application_id(project: Project) -> str:
     return only(project, "application").id
 
 
-def build(project: Project) -> BuildResult:
+def build(project: Project, previous: CodePackage | None = None) -> BuildResult:
+    """`previous`: the package that an online change goes on from."""
     (one,) = project_applications(project)
-    return build_application(one.sources, one.tasks, options=replace(one.options, level=1))
+    options = replace(one.options, level=1, once=False)
+    return build_application(one.sources, one.tasks, options=options, previous=previous)
 
 
 def errors(project: Project) -> list[str]:

@@ -65,6 +65,7 @@ def every_kind() -> Project:
     pool = add(application.id, "axis_pool", "SoftMotion General Axis Pool")
     add(pool, "axis", "Axis")
     add(application.id, "cam", "Cam")
+    add(application.id, "axis_group", "Group")
     add(application.id, "cnc", "Path")
     manager = add(application.id, "recipe_manager", "Recipe Manager")
     add(manager, "recipe_definition", "Recipes")

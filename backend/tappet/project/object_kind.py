@@ -124,7 +124,7 @@ class Compiled(Generic[D]):
     """The task that an object is; only for objects below an application."""
     around_tasks: Callable[[Project, ProjectObject, Sequence[Task], SourceWriter], list[Task]] | None = None
     """The tasks of the application with what an object has them call around their programs; writes the text
-    of the programs that are called. Only for objects directly below an application."""
+    of the programs that are called. In tree order; only for objects of an application."""
     variable_in: tuple[str, ...] = ()
     """The lists in which the object is a global variable of its name, `{name}` in theirs being that name;
     texts follow when it is renamed."""

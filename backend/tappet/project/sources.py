@@ -130,8 +130,8 @@ def _around_tasks(project: Project, application: ProjectObject) -> tuple[list[So
     """The texts of the programs that objects have tasks call, and the tasks with these calls."""
     tasks = _configured_tasks(project, application)
     texts = []
-    for item in project.children(application.id):
-        around = None if item.excluded else compiled(item).around_tasks
+    for item in _own(project, application):
+        around = compiled(item).around_tasks
         if around is not None:
             writer = SourceWriter()
             tasks = around(project, item, tasks, writer)

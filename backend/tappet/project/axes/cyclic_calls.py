@@ -104,13 +104,25 @@ def around_tasks(
     return [_with_calls(task, [one.axis for one in moved if one.task is task], writer) for task in tasks]
 
 
+def bus_task_of(axis: ProjectObject, project: Project, tasks: Sequence[Task]) -> Task | None:
+    """The task of an application that moves an axis; None where none can."""
+    assert axis.parent_id is not None
+    return _moved(axis, project.get(axis.parent_id), tasks).task
+
+
+def fastest_cyclic(tasks: Sequence[Task]) -> Task | None:
+    """The bus task of what nobody has chosen one for; None without any cyclic task."""
+    cyclic = [task for task in tasks if task.kind == "cyclic"]
+    return min(cyclic, key=lambda task: (task.interval_ns, task.priority)) if cyclic else None
+
+
 def _moved(axis: ProjectObject, pool: ProjectObject, tasks: Sequence[Task]) -> _Moved:
     """An axis with its task: its own choice, else that of the pool, else the fastest cyclic one."""
     chosen = axis.data_as(AxisSettings).bus_task or _bus_task_of(pool)
     if not chosen:
-        cyclic = [task for task in tasks if task.kind == "cyclic"]
-        if cyclic:
-            return _Moved(axis, min(cyclic, key=lambda task: (task.interval_ns, task.priority)))
+        fastest = fastest_cyclic(tasks)
+        if fastest is not None:
+            return _Moved(axis, fastest)
         return _Moved(
             axis,
             None,

@@ -12,20 +12,16 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from msgspec import Meta, Struct
 
-from tappet.codegen.symbol_map import SymbolError, VarRef
-from tappet.codegen.values import Value
-from tappet.runtime.errors import PlcError
-from tappet.runtime.forces import PlacedValue
 from tappet.runtime.operations.declaration import Fact, Operation, OperationError, Rest
-from tappet.runtime.places import Place
+from tappet.runtime.panel_inputs import COUNTERS, PanelInputs
 
 if TYPE_CHECKING:
+    from tappet.codegen.values import Value
     from tappet.runtime.plc import SoftPlc
 
 PANELS = "IoConfig_AxisPanels"
 LONGEST_ANSWER_S = 10.0
 """Of a measurement: LONGEST of StepMeasurement."""
-_COUNTERS = 1 << 32
 _COMMANDS = {
     "move_absolute": "MoveAbsolute",
     "move_relative": "MoveRelative",
@@ -38,7 +34,7 @@ _COMMANDS = {
 _JOGS = {"jog_forward": (True, False), "jog_backward": (False, True), "jog_end": (False, False)}
 
 AxisName = Annotated[str, Meta(min_length=1, max_length=200, description="Name of the axis.")]
-Holder = Annotated[int, Meta(ge=1, lt=_COUNTERS, description="Number that the page has made up.")]
+Holder = Annotated[int, Meta(ge=1, lt=COUNTERS, description="Number that the page has made up.")]
 Finite = Annotated[float, Meta(ge=-1e300, le=1e300)]
 Positive = Annotated[float, Meta(gt=0, le=1e300)]
 Action = Literal[
@@ -149,16 +145,13 @@ class KeepAxis(Operation[PanelStatus], frozen=True):
         return status
 
 
-class Panel:
+class Panel(PanelInputs):
     """The panel of one axis of the application that runs."""
 
     def __init__(self, plc: SoftPlc, axis: str) -> None:
-        self._plc = plc
+        missing = f"the application that runs has no axis '{axis}'; download it with the axis"
+        super().__init__(plc, f"{PANELS}.{axis}", missing)
         self._axis = axis
-        self._symbols = plc.symbols()
-        if plc.state != "run":
-            raise PlcError("the application does not run; start it before moving its axes by hand")
-        self._ref("xUsed")
 
     def take(self, holder: int, *, forced: bool) -> None:
         """Ask for control. OperationError when somebody else has it."""
@@ -185,35 +178,11 @@ class Panel:
 
     def command(self, name: str, **inputs: Value) -> None:
         """Begin a command of the panel. OperationError while it measures, unless it is to stop."""
-        if name != "Stop" and self._literal("ePhase") != "Idle":
+        if name != "Stop" and self.literal("ePhase") != "Idle":
             text = f"the axis '{self._axis}' is being measured; wait for the end, or stop it"
             raise OperationError("measuring", text)
         self.write(**inputs, eCommand=name, udiCommand=self.next("udiCommand"))
 
     def status(self) -> PanelStatus:
         """Who moves the axis."""
-        return PanelStatus(self._literal("eState"), int(self._literal("udiHolder")))
-
-    def next(self, counter: str) -> int:
-        """Another value of a counter than it has."""
-        return (int(self._literal(counter)) + 1) % _COUNTERS
-
-    def write(self, **inputs: Value) -> None:
-        """Store inputs together, in this order."""
-        placed = []
-        for name, value in inputs.items():
-            ref = self._ref(name)
-            placed.append(PlacedValue(Place(ref.offset, ref.size, ref.bit), self._symbols.encode(ref, value)))
-        self._plc.write(placed)
-
-    def _literal(self, name: str) -> str:
-        ref = self._ref(name)
-        (data,) = self._plc.read([(ref.offset, ref.size)])
-        return self._symbols.format_literal(ref, self._symbols.decode(ref, data))
-
-    def _ref(self, name: str) -> VarRef:
-        try:
-            return self._symbols.resolve(f"{PANELS}.{self._axis}.{name}")
-        except SymbolError:
-            text = f"the application that runs has no axis '{self._axis}'; download it with the axis"
-            raise OperationError("not_found", text) from None
+        return PanelStatus(self.literal("eState"), int(self.literal("udiHolder")))

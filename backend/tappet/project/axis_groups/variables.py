@@ -1,0 +1,35 @@
+"""The global variable that an axis group is, with the values of the editor (AG-01)."""
+
+from __future__ import annotations
+
+from tappet.project.axes.literals import real
+from tappet.project.axis_groups.settings import AxisGroupSettings, Frame, PathDynamics
+
+LIBRARY = "SM3_AxisGroup"
+"""The library of all axis groups."""
+VARIABLES = "IoConfig_Group_{name}"
+"""The list of global variables that a group is in."""
+
+
+def declaration(name: str, settings: AxisGroupSettings) -> str:
+    """The variable of a group, ready for VAR_GLOBAL."""
+    members = {
+        "stPathLimits": dynamics(settings.limits),
+        "stDefaults": dynamics(settings.defaults),
+    }
+    values = ",\n".join(f"        {member} := {value}" for member, value in members.items())
+    return f"    {name} : {LIBRARY}.AXIS_GROUP_REF_SM3 := (\n{values});"
+
+
+def dynamics(of: PathDynamics) -> str:
+    """As GroupDynamics."""
+    return (
+        f"(fVelocity := {real(of.velocity)}, fAcceleration := {real(of.acceleration)}, "
+        f"fDeceleration := {real(of.deceleration)}, fJerk := {real(of.jerk)})"
+    )
+
+
+def frame(of: Frame) -> str:
+    """As MC_COORD_REF."""
+    members = ((name.upper(), getattr(of, name)) for name in Frame.model_fields)
+    return f"({', '.join(f'{member} := {real(value)}' for member, value in members)})"
