@@ -25,7 +25,7 @@ class PathDynamics(Data):
     jerk: NotNegative = Field(default=0.0, description="Along the path, in units/s³.")
 
 
-class Frame(Data):
+class CoordinateFrame(Data):
     """A place and an orientation: turned by a about Z, then by b about the new Y, then by c about the new
     X, as MC_COORD_REF."""
 
@@ -52,8 +52,12 @@ class AxisGroupSettings(CodeData):
     defaults: PathDynamics = Field(
         default=PathDynamics(), description="Of movements whose blocks say 0; 0: they have to say it."
     )
-    pcs_1: Frame = Field(default=Frame(), description="Where product 1 lies in the machine.")
-    pcs_2: Frame = Field(default=Frame(), description="Where product 2 lies in the machine.")
+    pcs_1: CoordinateFrame = Field(
+        default=CoordinateFrame(), description="Where product 1 lies in the machine."
+    )
+    pcs_2: CoordinateFrame = Field(
+        default=CoordinateFrame(), description="Where product 2 lies in the machine."
+    )
 
     @model_validator(mode="after")
     def _defaults_are_within_limits(self) -> AxisGroupSettings:

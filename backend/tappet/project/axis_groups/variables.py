@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tappet.project.axes.literals import real
-from tappet.project.axis_groups.settings import AxisGroupSettings, Frame, PathDynamics
+from tappet.project.axis_groups.settings import AxisGroupSettings, CoordinateFrame, PathDynamics
 
 LIBRARY = "SM3_AxisGroup"
 """The library of all axis groups."""
@@ -29,7 +29,7 @@ def dynamics(of: PathDynamics) -> str:
     )
 
 
-def frame(of: Frame) -> str:
+def frame(of: CoordinateFrame) -> str:
     """As MC_COORD_REF."""
-    members = ((name.upper(), getattr(of, name)) for name in Frame.model_fields)
+    members = ((name.upper(), getattr(of, name)) for name in CoordinateFrame.model_fields)
     return f"({', '.join(f'{member} := {real(value)}' for member, value in members)})"
