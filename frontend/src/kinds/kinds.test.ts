@@ -61,6 +61,7 @@ const ALLOWED: Readonly<Record<string, string>> = {
   'workbench/online/CallStackPanel.tsx pou': 'a column of the call stack',
   'workbench/online/dialogs.tsx persistent': 'a field of the answer to a login',
   'workbench/online/exception.ts pou': 'a field of a frame of the call stack',
+  'workbench/projectInfo/exampleText.ts axis_group': 'an example project',
   'project/kinds.ts application device folder script': 'roles in the tree',
 };
 const allowed = new Map(
