@@ -90,6 +90,7 @@ generate: $(VENV)/.ready frontend/node_modules/.ready
 	$(BIN)/python tests/iec/iec_texts.py
 	$(BIN)/python tests/lang/il_texts.py
 	$(BIN)/python tests/project/placement_answers.py
+	$(BIN)/python tests/projects/axis_group_curve.py
 
 $(VENV)/.ready: requirements.lock pyproject.toml
 	@test -d $(VENV) || $(PYTHON) -m venv $(VENV)

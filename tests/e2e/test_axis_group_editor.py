@@ -1,4 +1,4 @@
-"""An axis group from the tree to its motion: its axes are chosen, its queue is seen, it is stopped from its page."""
+"""An axis group from the tree to its motion: axes chosen, queue watched, stopped from its page."""
 
 from __future__ import annotations
 
