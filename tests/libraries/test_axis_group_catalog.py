@@ -17,6 +17,8 @@ CATALOG: dict[str, dict[str, Any]] = {
 }
 OURS = {item.name: item for item in items(load("SM3_AxisGroup"))}
 ELSEWHERE = {"MC_BUFFER_MODE": "SM3_Basic"}
+EXTENDED = {"CommandAccepted", "CommandID"}
+"""Outputs of PLCopen part 4, version 2.0, beyond the catalog, at blocks whose commands wait in the queue."""
 BLOCKS = sorted(name for name, item in CATALOG.items() if item["kind"] == "function_block" and name in OURS)
 ENUMERATIONS = sorted(name for name, item in CATALOG.items() if item["kind"] == "enum" and name in OURS)
 
@@ -45,10 +47,33 @@ def _pins(item: Item, section: str) -> dict[str, str]:
 @pytest.mark.parametrize("section", ["in_out", "inputs", "outputs"])
 @pytest.mark.parametrize("name", BLOCKS)
 def test_pins_are_those_of_the_catalog(name: str, section: str) -> None:
-    assert _pins(OURS[name], section) == _said(CATALOG[name], section)
+    ours = _pins(OURS[name], section)
+    assert {pin: type for pin, type in ours.items() if pin not in EXTENDED} == _said(CATALOG[name], section)
 
 
 @pytest.mark.parametrize("name", ENUMERATIONS)
 def test_values_are_those_of_the_catalog(name: str) -> None:
     ours = {value.name: int(value.value) for value in OURS[name].values}
     assert ours == {value["name"]: int(value["value"]) for value in CATALOG[name]["values"]}
+
+
+VERSION_2 = {
+    *("MC_GroupPower", "MC_ReadAxisGroupInfo", "MC_GroupWaitTime", "MC_GroupJog", "MC_GroupJogVector"),
+    *("MC_GroupReadPosition", "MC_GroupReadMotionState", "MC_GroupReadParameter", "MC_GroupWriteParameter"),
+    *("MC_GroupReadBoolParameter", "MC_GroupWriteBoolParameter", "MC_GroupReadSWLimits"),
+    *("MC_GroupWriteSWLimits", "MC_GroupReadDefaultDynamics", "MC_GroupWriteDefaultDynamics"),
+    *("MC_GroupReadReferenceDynamics", "MC_GroupWriteReferenceDynamics", "MC_GroupReadJoggingDynamics"),
+    "MC_GroupWriteJoggingDynamics",
+}
+"""Blocks of PLCopen part 4, version 2.0, beyond the catalog."""
+
+
+def test_blocks_of_version_2() -> None:
+    assert {name for name in VERSION_2 if name in OURS and OURS[name].kind == "function_block"} == VERSION_2
+
+
+def test_who_says_that_a_command_was_accepted() -> None:
+    """The blocks whose commands wait in the queue."""
+    named = {name for name, item in OURS.items() if {pin.name for pin in item.outputs} >= EXTENDED}
+    moving = {name for name in OURS if name.startswith(("MC_MoveLinear", "MC_MoveCircular", "MC_MoveDirect"))}
+    assert named >= moving | {"MC_GroupHalt", "MC_GroupWaitTime", "SMC_GroupWait"}
