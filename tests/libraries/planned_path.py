@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
+from scipy.integrate import cumulative_simpson
+from scipy.interpolate import make_interp_spline
 from tests.libraries.st_program import Program, run
 
 Numbers = npt.NDArray[np.float64]
@@ -17,6 +19,8 @@ PER_CELL = 10 + 6 * AXES
 MOST_CELLS = 4000
 RECORDS = 20_000
 RECORD = ("position", "velocity", "acceleration", "jerk", "element", "limit", "axis", "share", "cell", "stands")
+JERK, ACCELERATION = 0, 1
+"""Values of PlanMethod."""
 LIMITS = ("Standing", "Feed", "Velocity", "Joint", "Acceleration", "Jerk", "Transition")
 
 PROGRAM = f"""
@@ -30,10 +34,8 @@ VAR
     iCells, iFed, iRecords, i, k, n : DINT;
     iPerCycle : DINT := {MOST_CELLS};  (* Cells that arrive in a cycle *)
     iSteps    : INT := 100;
-    iNewton   : DINT;
     fCycle    : LREAL := 0.001;
     xClears   : BOOL;
-    stEmpty   : SM3_PathPlanner.PathCell;
 END_VAR
 uIn := ADR(afIn);
 uOut := ADR(afOut);
@@ -183,15 +185,20 @@ class Planned:
         address = int(self.program.literal(variable))
         return np.ctypeslib.as_array((ctypes.c_double * length).from_address(address))
 
-    def load(self, path: Path, **inputs: float | bool | str) -> None:
-        """Forgets what was there; the cells of the path arrive from the next cycle on."""
+    def load(
+        self, path: Path, method: int = JERK, per_cycle: int = MOST_CELLS, steps: int = 100, cycle: float = 0.001,
+        **inputs: float | bool | str,
+    ) -> None:
+        """Forgets what was there; so many cells of the path arrive in each cycle from the next one on."""
         rows = path.rows()
         self.inside[: rows.size] = rows.ravel()
         names = ("fVelocity", "fAcceleration", "fJerk")
         for axis, limits in enumerate(path.limits):
             members = {f"aLimits[{axis + 1}].{name}": value for name, value in zip(names, limits, strict=True)}
             self.program.set("Main.planner", **members)
-        self.program.set("Main.planner", nAxes=len(path.limits), **inputs)
+        given = {"fOverride": 1.0, "xHold": False, "xClosed": False, **inputs}
+        self.program.set("Main.planner", nAxes=len(path.limits), eMethod=method, **given)
+        self.program.set("Main", iPerCycle=per_cycle, iSteps=steps, fCycle=cycle)
         self.program.set("Main", iCells=len(rows), xClears=True, iRecords=0)
         self.program.cycle()
 
@@ -235,3 +242,66 @@ def arc(centre: Sequence[float], radius: float, start: float, sweep: float, **li
         )
 
     return Element(radius * abs(sweep), shape, curvature=1 / radius, **limits)
+
+
+def curve(of: Callable[[Numbers], Numbers], last: float, samples: int = 4001, **limits: float) -> Element:
+    """A smooth curve q(u), u from 0 to `last`, by its length: a spline of fifth degree through samples of it."""
+    u = np.linspace(0.0, last, samples)
+    points = of(u)
+    speed = make_interp_spline(u, points, k=5).derivative()(u)
+    length = cumulative_simpson(np.linalg.norm(speed, axis=1), x=u, initial=0.0)
+    spline = make_interp_spline(length, points, k=5)
+    orders = (spline, *(spline.derivative(order) for order in (1, 2, 3)))
+    return Element(float(length[-1]), lambda s: np.stack([order(s) for order in orders]), **limits)
+
+
+def wave(amplitude: float, pace: float, last: float, **limits: float) -> Element:
+    """A sine in the plane."""
+    return curve(lambda u: np.stack((u, amplitude * np.sin(pace * u)), axis=1), last, **limits)
+
+
+def rounded_corners(cell: float, feed: float, limits: Sequence[tuple[float, float, float]]) -> Path:
+    """Two corners of 90 degrees, rounded by arcs of radius 5: the curvature jumps at each joint."""
+    own = {"feed": feed, "acceleration": 1000.0, "jerk": 20_000.0}
+    half = np.pi / 2
+    return Path(
+        (
+            line((0, 0), (15, 0), **own),
+            arc((15, 5), 5, -half, half, **own),
+            line((20, 5), (20, 15), **own),
+            arc((25, 15), 5, np.pi, -half, **own),
+            line((25, 20), (60, 20), **own),
+        ),
+        cell,
+        limits,
+    )
+
+
+@dataclass(frozen=True)
+class AxisMotion:
+    """Velocity, acceleration and jerk of the axes by the chain rule, and by differences of their positions."""
+
+    position: Numbers
+    velocity: Numbers
+    acceleration: Numbers
+    jerk: Numbers
+
+    def shares(self, limits: Sequence[tuple[float, float, float]]) -> Numbers:
+        """The largest part of each limit that an axis reaches: velocity, acceleration, jerk."""
+        table = np.array(limits)
+        orders = (self.velocity, self.acceleration, self.jerk)
+        return np.array([(np.abs(values) / table[:, at]).max() for at, values in enumerate(orders)])
+
+
+def axis_motion(path: Path, record: dict[str, Numbers]) -> AxisMotion:
+    """What the axes did."""
+    q = path.axes_at(record["element"], record["position"])
+    v, a, j = (record[name][:, None] for name in ("velocity", "acceleration", "jerk"))
+    q0, q1, q2, q3 = (q[:, order] for order in range(4))
+    return AxisMotion(q0, q1 * v, q2 * v**2 + q1 * a, q3 * v**3 + 3 * q2 * v * a + q1 * j)
+
+
+def duration(record: dict[str, Numbers], cycle: float) -> float:
+    """Time of the motion, from the first cycle on; it has ended."""
+    assert record["stands"][-1] == 1.0
+    return float(np.flatnonzero(record["stands"] == 0.0)[-1] + 1) * cycle
