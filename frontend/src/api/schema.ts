@@ -979,7 +979,8 @@ export interface paths {
         put?: never;
         /**
          * Compare Version
-         * @description What it costs to bring that version back: whether it goes online, and what happens to variables.
+         * @description What it costs to bring that version back: whether it goes online, and what happens to variables; which
+         *     persistent ones a download cannot keep.
          */
         post: operations["compare_version"];
         delete?: never;
@@ -1129,6 +1130,66 @@ export interface paths {
          * @description Forget what builds and downloads of all applications of the project have left.
          */
         post: operations["clean_all"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/cnc/blocks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Cnc Blocks
+         * @description The blocks of path preprocessing that the library SM3_CNC offers (CNCS-08, CNCS-09).
+         */
+        get: operations["cnc_blocks"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/cnc/code": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Cnc Code
+         * @description The ST of the variables that a program is (CNC-21); the problem `faulty-cnc` for one with errors.
+         */
+        post: operations["cnc_code"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/cnc/info": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Cnc Info
+         * @description Lines, objects, length and duration of a program, by the blocks of the library SM3_CNC (CNC-20).
+         */
+        post: operations["cnc_info"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2427,6 +2488,26 @@ export interface paths {
          *     instead of proposals.
          */
         post: operations["measure_axis"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runtimes/{runtime_id}/axis_groups/{group}/panel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Steer Axis Group
+         * @description Enable, disable, reset or stop an axis group.
+         */
+        post: operations["steer_axis_group"];
         delete?: never;
         options?: never;
         head?: never;
@@ -4004,6 +4085,103 @@ export interface components {
             user: components["schemas"]["Me"] | null;
         };
         /**
+         * AxisGroupObject
+         * @description Axes that move together along paths; it is a global variable of its name.
+         */
+        AxisGroupObject: {
+            data: components["schemas"]["AxisGroupSettings"];
+            /**
+             * Excluded
+             * @description From the build.
+             */
+            excluded: boolean;
+            /** Id */
+            id: string;
+            /**
+             * Index
+             * @description Order among the siblings, from 0.
+             */
+            index: number;
+            /**
+             * Kind
+             * @constant
+             */
+            kind: "axis_group";
+            /** Name */
+            name: string;
+            /** Parent Id */
+            parent_id: string | null;
+            /** Revision */
+            revision: number;
+            /**
+             * Subkind
+             * @description What the declaration says: `program`, `struct` ...
+             */
+            subkind: string | null;
+        };
+        /**
+         * AxisGroupSettings
+         * @description The axes of a group, how fast it moves, and where its products lie.
+         */
+        AxisGroupSettings: {
+            /**
+             * Axes
+             * @description Names of the axes by their index in the group; empty: none chosen yet.
+             * @default []
+             */
+            axes: string[];
+            /**
+             * @description Of movements whose blocks say 0; 0: they have to say it.
+             * @default {
+             *       "acceleration": 0,
+             *       "deceleration": 0,
+             *       "jerk": 0,
+             *       "velocity": 0
+             *     }
+             */
+            defaults: components["schemas"]["PathDynamics"];
+            /**
+             * Exclude From Build
+             * @description The compiler does not get this object, nor what is below it.
+             * @default false
+             */
+            exclude_from_build?: boolean;
+            /**
+             * @description That no movement along a path exceeds; 0: the axes alone limit it.
+             * @default {
+             *       "acceleration": 0,
+             *       "deceleration": 0,
+             *       "jerk": 0,
+             *       "velocity": 0
+             *     }
+             */
+            limits: components["schemas"]["PathDynamics"];
+            /**
+             * @description Where product 1 lies in the machine.
+             * @default {
+             *       "a": 0,
+             *       "b": 0,
+             *       "c": 0,
+             *       "x": 0,
+             *       "y": 0,
+             *       "z": 0
+             *     }
+             */
+            pcs_1: components["schemas"]["CoordinateFrame"];
+            /**
+             * @description Where product 2 lies in the machine.
+             * @default {
+             *       "a": 0,
+             *       "b": 0,
+             *       "c": 0,
+             *       "x": 0,
+             *       "y": 0,
+             *       "z": 0
+             *     }
+             */
+            pcs_2: components["schemas"]["CoordinateFrame"];
+        };
+        /**
          * AxisMeasured
          * @description A measurement of an axis and what it says.
          */
@@ -5435,6 +5613,99 @@ export interface components {
             line?: number | null;
         };
         /**
+         * CncBlock
+         * @description A block of path preprocessing that the library offers (CNCS-08).
+         */
+        CncBlock: {
+            /** Comment */
+            comment: string;
+            /** Name */
+            name: string;
+            /** Parameters */
+            parameters: components["schemas"]["CncBlockParameter"][];
+        };
+        /**
+         * CncBlockParameter
+         * @description An input of a preprocessing block.
+         */
+        CncBlockParameter: {
+            /** Comment */
+            comment: string;
+            /** Initial */
+            initial: string;
+            /** Name */
+            name: string;
+            /** Type */
+            type: string;
+            /**
+             * Values
+             * @description Those of a BOOL or an enumeration; empty for a number.
+             */
+            values: string[];
+        };
+        /**
+         * CncBlocks
+         * @description All of them.
+         */
+        CncBlocks: {
+            /** Blocks */
+            blocks: components["schemas"]["CncBlock"][];
+        };
+        /**
+         * CncCode
+         * @description The ST of the variables that a program is (CNC-21).
+         */
+        CncCode: {
+            /** Text */
+            text: string;
+        };
+        /**
+         * CncFault
+         * @description Why a path ends early.
+         */
+        CncFault: {
+            /** Column */
+            column: number;
+            /**
+             * Length
+             * @description 0: the whole line.
+             */
+            length: number;
+            /**
+             * Line
+             * @description Of the text, from 0.
+             */
+            line: number | null;
+            /** Message */
+            message: string;
+        };
+        /**
+         * CncInfo
+         * @description What the dialog CNC info shows (CNC-20).
+         */
+        CncInfo: {
+            /**
+             * Errors
+             * @description Errors of the text.
+             */
+            errors: number;
+            /**
+             * Library
+             * @description Version of the function blocks.
+             */
+            library: string;
+            /** Lines */
+            lines: number;
+            /**
+             * Name
+             * @description Of the program.
+             */
+            name: string;
+            path: components["schemas"]["CncPathFacts"];
+            /** @description None where the settings have no preprocessing. */
+            preprocessed: components["schemas"]["CncPathFacts"] | null;
+        };
+        /**
          * CncObject
          * @description A CNC program: a path for several axes, as DIN 66025 text or table.
          */
@@ -5468,6 +5739,37 @@ export interface components {
              * @description What the declaration says: `program`, `struct` ...
              */
             subkind: string | null;
+        };
+        /**
+         * CncOrder
+         * @description A program as its editor has it.
+         */
+        CncOrder: {
+            /**
+             * Object Id
+             * @description The CNC object; its application has the settings.
+             */
+            object_id: string;
+            program: components["schemas"]["CncProgramData-Input"];
+        };
+        /**
+         * CncPathFacts
+         * @description A path in numbers.
+         */
+        CncPathFacts: {
+            /**
+             * Duration
+             * @description [s]; none where the interpolator cannot go the path.
+             */
+            duration: number | null;
+            fault: components["schemas"]["CncFault"] | null;
+            /**
+             * Length
+             * @description [u]
+             */
+            length: number;
+            /** Objects */
+            objects: number;
         };
         /**
          * CncPosition
@@ -6117,6 +6419,49 @@ export interface components {
              * @description Below the folder of files of the application.
              */
             folder: string;
+        };
+        /**
+         * CoordinateFrame
+         * @description A place and an orientation: turned by a about Z, then by b about the new Y, then by c about the new
+         *     X, as MC_COORD_REF.
+         */
+        CoordinateFrame: {
+            /**
+             * A
+             * @description Turn about Z, in degrees.
+             * @default 0
+             */
+            a: number;
+            /**
+             * B
+             * @description Turn about Y, in degrees.
+             * @default 0
+             */
+            b: number;
+            /**
+             * C
+             * @description Turn about X, in degrees.
+             * @default 0
+             */
+            c: number;
+            /**
+             * X
+             * @description Shift along X, in units.
+             * @default 0
+             */
+            x: number;
+            /**
+             * Y
+             * @description Shift along Y, in units.
+             * @default 0
+             */
+            y: number;
+            /**
+             * Z
+             * @description Shift along Z, in units.
+             * @default 0
+             */
+            z: number;
         };
         /**
          * CopyTarget
@@ -7137,6 +7482,13 @@ export interface components {
             rated_torque: number;
         };
         /**
+         * GroupPanelStatus
+         * @description The command that was given.
+         */
+        GroupPanelStatus: {
+            command: number;
+        };
+        /**
          * GvlData
          * @description VAR_GLOBAL ... END_VAR.
          */
@@ -7900,6 +8252,31 @@ export interface components {
             tasks: string[];
         };
         /**
+         * LoadOrder
+         * @description How to bring an application into the runtime.
+         */
+        LoadOrder: {
+            /**
+             * Initialise Persistent
+             * @description Give all persistent variables their initial values: a reset origin before a download.
+             * @default false
+             */
+            initialise_persistent?: boolean;
+            /**
+             * Mode
+             * @enum {string}
+             */
+            mode: "download" | "online_change";
+            /** Runtime Id */
+            runtime_id: string;
+            /**
+             * Start
+             * @description Start after a download; an online change never stops.
+             * @default true
+             */
+            start?: boolean;
+        };
+        /**
          * LogEntry
          * @description One line of a runtime's log.
          */
@@ -8572,7 +8949,7 @@ export interface components {
          * ObjectDetail
          * @description An object with its data, whose shape depends on `kind`.
          */
-        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["CamObject"] | components["schemas"]["CncObject"] | components["schemas"]["CncSettingsObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["RecipeManagerObject"] | components["schemas"]["RecipeDefinitionObject"] | components["schemas"]["TraceObject"] | components["schemas"]["SceneObject"] | components["schemas"]["FlightRecordingObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
+        ObjectDetail: components["schemas"]["FolderObject"] | components["schemas"]["DeviceObject"] | components["schemas"]["PlcLogicObject"] | components["schemas"]["ApplicationObject"] | components["schemas"]["PouObject"] | components["schemas"]["InterfaceObject"] | components["schemas"]["DutObject"] | components["schemas"]["GvlObject"] | components["schemas"]["PersistentObject"] | components["schemas"]["MethodObject"] | components["schemas"]["PropertyObject"] | components["schemas"]["ActionObject"] | components["schemas"]["AccessorObject"] | components["schemas"]["TaskConfigurationObject"] | components["schemas"]["TaskObject"] | components["schemas"]["AxisPoolObject"] | components["schemas"]["AxisObject"] | components["schemas"]["AxisGroupObject"] | components["schemas"]["CamObject"] | components["schemas"]["CncObject"] | components["schemas"]["CncSettingsObject"] | components["schemas"]["LibraryManagerObject"] | components["schemas"]["RecipeManagerObject"] | components["schemas"]["RecipeDefinitionObject"] | components["schemas"]["TraceObject"] | components["schemas"]["SceneObject"] | components["schemas"]["FlightRecordingObject"] | components["schemas"]["ScriptObject"] | components["schemas"]["PageSetupObject"] | components["schemas"]["UnknownObjectKind"];
         /**
          * ObjectMove
          * @description A new name or place; what is left out stays. A new parent without index: the end of its children.
@@ -8972,6 +9349,36 @@ export interface components {
             cycle: number;
             /** Values */
             values: components["schemas"]["Value"][];
+        };
+        /**
+         * PathDynamics
+         * @description How fast a group moves along paths in space; 0 says nothing.
+         */
+        PathDynamics: {
+            /**
+             * Acceleration
+             * @description Along the path, in units/s².
+             * @default 0
+             */
+            acceleration: number;
+            /**
+             * Deceleration
+             * @description Along the path, in units/s².
+             * @default 0
+             */
+            deceleration: number;
+            /**
+             * Jerk
+             * @description Along the path, in units/s³.
+             * @default 0
+             */
+            jerk: number;
+            /**
+             * Velocity
+             * @description Along the path, in units/s.
+             * @default 0
+             */
+            velocity: number;
         };
         /**
          * PathElement
@@ -10536,25 +10943,6 @@ export interface components {
             torque: number[] | null;
         };
         /**
-         * RestoreOrder
-         * @description How to bring an earlier version back.
-         */
-        RestoreOrder: {
-            /**
-             * Mode
-             * @enum {string}
-             */
-            mode: "download" | "online_change";
-            /** Runtime Id */
-            runtime_id: string;
-            /**
-             * Start
-             * @description Start after a download; an online change never stops.
-             * @default true
-             */
-            start?: boolean;
-        };
-        /**
          * Result
          * @description What became of an act.
          * @enum {string}
@@ -11526,6 +11914,14 @@ export interface components {
             position?: number;
             /** @default 10 */
             velocity?: number;
+        };
+        /**
+         * SteerAxisGroup
+         * @description Enable, disable, reset or stop an axis group.
+         */
+        SteerAxisGroup: {
+            /** @enum {unknown} */
+            action: "disable" | "enable" | "reset" | "stop";
         };
         /**
          * StopAxis
@@ -15808,7 +16204,7 @@ export interface operations {
         };
         requestBody: {
             content: {
-                "application/json": components["schemas"]["RestoreOrder"];
+                "application/json": components["schemas"]["LoadOrder"];
             };
         };
         responses: {
@@ -16078,6 +16474,134 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    cnc_blocks: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CncBlocks"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    cnc_code: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CncOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CncCode"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    cnc_info: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CncOrder"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CncInfo"];
+                };
             };
             /** @description The request was refused */
             422: {
@@ -19258,6 +19782,51 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["AxisMeasured"];
+                };
+            };
+            /** @description The request was refused */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+            /** @description The request was refused */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["ProblemDetails"];
+                };
+            };
+        };
+    };
+    steer_axis_group: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                runtime_id: string;
+                group: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SteerAxisGroup"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GroupPanelStatus"];
                 };
             };
             /** @description The request was refused */
