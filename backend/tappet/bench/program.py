@@ -15,7 +15,7 @@ from tappet.runtime.local import LocalRuntime
 
 @contextmanager
 def running(text: str, libraries: Sequence[str] = ("SM3_Basic",)) -> Iterator[tuple[LocalRuntime, int]]:
-    """The program `Main` in the soft PLC, stopped, and the address of its cycle; ValueError if it is wrong."""
+    """The program `Main` in the soft PLC, stopped, with the address of its cycle; else ValueError."""
     runtime = LocalRuntime(built(text, libraries), flight=FlightSettings(memory=0), start=False)
     try:
         application = runtime.plc.application
