@@ -173,6 +173,25 @@ def test_the_axis_stands_behind_the_path(block: str) -> None:
         assert (one.says("Axis.nAxisState"), one.says(f"{block}.bBusy")) == ("standstill", "FALSE")
 
 
+@pytest.mark.parametrize("block", ["ByPos", "ByPosVel"])
+@pytest.mark.parametrize("back", [False, True])
+def test_the_axis_stands_at_the_end_of_the_path(block: str, back: bool) -> None:
+    """CNCR-170: bWorking, which is bEnable, falls with the last set position; `back`: the path is begun anew at once."""
+    with axis() as one:
+        for place, enable in ((0.0, True), (0.4, True), (0.8, True), (1.0, False)):
+            inputs = {"fSetPosition": place, "bEnable": enable}
+            one.set(block, **inputs, **({"fSetVelocity": 100.0} if block == "ByPosVel" else {}))
+            if not enable:
+                one.set(block, iStatus="IPO_FINISHED")
+            one.calls(1)
+        if back:
+            one.set(block, fSetPosition=0.0, iStatus="IPO_INIT")
+        found = one.calls(20)
+        assert found["aPosition"].tolist() == [1.0] * 20
+        assert found["aVelocity"][1:].tolist() == [0.0] * 19
+        assert (one.says("Axis.nAxisState"), one.says(f"{block}.bBusy")) == ("standstill", "FALSE")
+
+
 @pytest.mark.parametrize("block", BLOCKS)
 def test_another_command(block: str) -> None:
     """Spec CNCR-173."""

@@ -43,6 +43,22 @@ def test_parameters() -> None:
         assert literal("Main.read.bMActive") == "FALSE"
 
 
+def test_an_acknowledgement_is_for_one() -> None:
+    """CNCR-150: the next one at the same place waits to be seen; with bAcknM TRUE for ever each is passed at once."""
+    with motion([Object(50.0), m(7), m(9), m(7), Object(50.0)]) as path:
+        assert path.calls(160)["aM"][-1] == 7
+        seen = []
+        for _ in range(3):
+            path.set(bAcknM=True)
+            seen.append(path.calls(1)["aM"][0])
+            path.set(bAcknM=False)
+            assert path.calls(5)["aM"].tolist() == [seen[-1]] * 5
+        assert seen == [9, 7, 0]
+        assert path.calls(160)["aDone"][-1] > 0
+    with motion([Object(50.0), m(7), m(9), m(7), Object(50.0)], bAcknM=True) as path:
+        assert path.calls(310)["aDone"][-1] > 0
+
+
 @pytest.mark.parametrize(("number", "calls"), [(7, 250), (8, 300)])
 def test_in_advance(number: int, calls: int) -> None:
     """Spec cnc_runtime EX-35, CNCR-152: no stop, wM stays 0; another number does not count."""
