@@ -18,6 +18,7 @@ MACHINES = {
     "gantry": ("Gantry", "Machine3D"),
     "pick_and_place": ("Pick and place", "Machine3D"),
     "rotary_knife": ("Rotary knife", "Machine3D"),
+    "router": ("Router", "Machine3D"),
     "winder": ("Winder", "Machine3D"),
 }
 
