@@ -84,6 +84,7 @@ generate: $(VENV)/.ready frontend/node_modules/.ready
 	$(BIN)/python -m tappet.lang.diagnostic_pages
 	$(BIN)/python -m tappet.manual
 	$(BIN)/python -m tappet.iec.typescript
+	$(BIN)/python -m tappet.iec.task_typescript
 	$(BIN)/python -m tappet.iec.textmate
 	$(BIN)/python -m tappet.project.axes.channels > frontend/src/kinds/axis/channels.json
 	$(BIN)/python -m tappet.lang.languages.il.typescript

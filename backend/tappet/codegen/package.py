@@ -18,7 +18,7 @@ from tappet.codegen.symbol_types import Bit
 from tappet.iec.heap import DEFAULT_HEAP
 from tappet.iec.memory import DEFAULT_RESERVE, MAX_IMAGE
 from tappet.iec.places import SourceMap
-from tappet.iec.task import TaskKind, TaskPolicy, Watchdog
+from tappet.iec.task import SOFT_PLC, TaskKind, TaskPolicy, Watchdog
 
 MAGIC = b"TAPPET-PKG"
 VERSION = 3
@@ -50,7 +50,7 @@ class TaskSpec(Struct, frozen=True):
     kind: TaskKind = "cyclic"
     interval_ns: int = 10_000_000
     """Period of a cyclic task; 0 for the other kinds."""
-    priority: Annotated[int, Meta(ge=0, le=31)] = 1
+    priority: Annotated[int, Meta(ge=SOFT_PLC.highest_priority, le=SOFT_PLC.lowest_priority)] = 1
     """0 (highest) to 31."""
     event: str | None = None
     """Path of the BOOL variable of an event or status task, name of the event of an external one."""

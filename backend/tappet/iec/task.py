@@ -7,7 +7,9 @@ lie.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
+
+from tappet.iec.system_events import EXTERNAL_EVENTS
 
 TaskKind = Literal["cyclic", "freewheeling", "event", "status", "external"]
 TaskPolicy = Literal["fifo", "round_robin", "normal"]
@@ -15,8 +17,35 @@ TaskPolicy = Literal["fifo", "round_robin", "normal"]
 priority taking turns with those of the same priority, or like any other program."""
 
 
-MOST_TASKS = 64
-"""Tasks of an application."""
+@dataclass(frozen=True, slots=True)
+class TaskDescription:
+    """What a device permits of tasks, as its description says (TASK-04, TASK-07, TASK-30)."""
+
+    most_tasks: int
+    """Of an application."""
+    kinds: tuple[TaskKind, ...]
+    highest_priority: int
+    lowest_priority: int
+    external_events: tuple[str, ...]
+    """What external tasks can wait for (TASK-16)."""
+    most_percent: int
+    """Longest time of a cycle that a watchdog permits, in percent of the interval."""
+    most_sensitivity: int
+    """Of a watchdog."""
+    processors: int
+    """Numbers of processors that task groups can name, from 0."""
+
+
+SOFT_PLC = TaskDescription(
+    most_tasks=64,
+    kinds=get_args(TaskKind),
+    highest_priority=0,
+    lowest_priority=31,
+    external_events=EXTERNAL_EVENTS,
+    most_percent=1_000_000,
+    most_sensitivity=1_000_000,
+    processors=1024,  # what a set of the operating system has room for
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +67,7 @@ class Task:
     interval_ns: int = 10_000_000
     """Period of a cyclic task; says nothing for the other kinds."""
     priority: int = 1
-    """0 (highest) to 31."""
+    """As the device permits: 0 (highest) to 31."""
     event: str | None = None
     """Path of the BOOL variable of an event or status task, or the event of an external one."""
     watchdog: Watchdog | None = None

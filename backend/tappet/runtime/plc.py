@@ -15,7 +15,7 @@ from typing import get_args
 from tappet import __version__
 from tappet.codegen.package import CodePackage, PackageError
 from tappet.disk_full import is_disk_full
-from tappet.iec.task import MOST_TASKS
+from tappet.iec.task import SOFT_PLC
 from tappet.runtime.access import ApplicationAccess
 from tappet.runtime.application import LoadedApplication
 from tappet.runtime.boot import (
@@ -321,9 +321,10 @@ class SoftPlc(ApplicationAccess):
         """Replace the application. Values to keep come from the running one (persistent only) or from
         `kept`. After a crash it is only loaded; `starts` counts starts from boot.
         """
-        if len(package.tasks) > MOST_TASKS:
+        most = SOFT_PLC.most_tasks
+        if len(package.tasks) > most:
             raise PlcError(
-                f"the package was refused: {len(package.tasks)} tasks; at most {MOST_TASKS} are possible"
+                f"the package was refused: {len(package.tasks)} tasks; at most {most} are possible"
             )
         try:
             application = LoadedApplication(

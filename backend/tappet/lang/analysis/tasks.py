@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tappet.iec.system_events import EXTERNAL_EVENTS, external_event
-from tappet.iec.task import MOST_TASKS, Task
+from tappet.iec.system_events import external_event
+from tappet.iec.task import SOFT_PLC, Task
 from tappet.lang import types as t
 from tappet.lang.analysis.context import Body, Session
 from tappet.lang.analysis.expressions import evaluate
@@ -19,9 +19,6 @@ from tappet.lang.rules import coding_checks
 from tappet.lang.source import NOWHERE, Scope, Source
 from tappet.lang.symbols import PouSymbol, VarSymbol
 
-HIGHEST_PRIORITY = 0
-LOWEST_PRIORITY = 31
-_KINDS = ("cyclic", "freewheeling", "event", "status", "external")
 _EVENT_KINDS = ("event", "status", "external")
 
 
@@ -33,8 +30,8 @@ def check_tasks(tasks: Sequence[Task], analysis: Analysis) -> list[Diagnostic]:
         if main.upper() not in analysis.programs:
             found.append(report("E0219", "", NOWHERE, name=main))
         return found
-    if len(tasks) > MOST_TASKS:
-        found.append(report("E0712", "", NOWHERE, count=len(tasks), most=MOST_TASKS))
+    if len(tasks) > SOFT_PLC.most_tasks:
+        found.append(report("E0712", "", NOWHERE, count=len(tasks), most=SOFT_PLC.most_tasks))
     names: set[str] = set()
     for task in tasks:
         key = task.name.upper()
@@ -58,9 +55,9 @@ def _check(task: Task, analysis: Analysis) -> list[Diagnostic]:
     def say(code: str, **fields: object) -> None:
         found.append(report(code, "", NOWHERE, task=task.name, **fields))
 
-    if not HIGHEST_PRIORITY <= task.priority <= LOWEST_PRIORITY:
+    if not SOFT_PLC.highest_priority <= task.priority <= SOFT_PLC.lowest_priority:
         say("E0702", priority=task.priority)
-    if task.kind not in _KINDS:
+    if task.kind not in SOFT_PLC.kinds:
         say("E0708", kind=task.kind)
     if task.kind == "cyclic" and task.interval_ns <= 0:
         say("E0706", interval=f"{task.interval_ns} ns")
@@ -70,7 +67,7 @@ def _check(task: Task, analysis: Analysis) -> list[Diagnostic]:
     if task.kind in _EVENT_KINDS:
         if task.kind == "external" and task.event:
             if external_event(task.event) is None:
-                say("E0711", event=task.event, events=", ".join(EXTERNAL_EVENTS))
+                say("E0711", event=task.event, events=", ".join(SOFT_PLC.external_events))
         elif task.event:
             found += _check_event(task, task.event, analysis)
         else:

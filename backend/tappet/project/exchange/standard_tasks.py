@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from tappet.iec.task import SOFT_PLC
 from tappet.iec.tokens import NAME, Word, words
 from tappet.project.durations import duration_ns
 from tappet.project.errors import InvalidTimeError
 from tappet.project.exchange.drafts import Draft, task_configuration
 from tappet.project.exchange.report import ImportReport
 from tappet.project.exchange.split_text import SplitText, split_text
-
-MAX_PRIORITY = 31
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +122,7 @@ def background_task(source: str, line: int | None, instance: str, kind: str, rep
     """The task of a program that a file instantiates without one."""
     text = f"program '{kind}' has no task; it is called by a freewheeling task of the lowest priority"
     report.add("changed", source, text, name=instance, line=line)
-    data = {"type": "freewheeling", "priority": MAX_PRIORITY, "pous": [{"name": kind}]}
+    data = {"type": "freewheeling", "priority": SOFT_PLC.lowest_priority, "pous": [{"name": kind}]}
     return Draft("task", instance, data, source, line)
 
 
@@ -166,7 +165,7 @@ def priority(source: str, line: int | None, name: str, text: str, report: Import
         value = int(text or "1")
     except ValueError:
         value = 1
-    fit = min(max(value, 0), MAX_PRIORITY)
+    fit = min(max(value, SOFT_PLC.highest_priority), SOFT_PLC.lowest_priority)
     if str(fit) != (text.strip() or "1"):
         report.add("changed", source, f"priority '{text}' became {fit}", name=name, line=line)
     return fit

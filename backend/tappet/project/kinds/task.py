@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
-from tappet.iec.task import Task, Watchdog
+from tappet.iec.task import SOFT_PLC, Task, TaskKind, Watchdog
 from tappet.project.data import Data, Duration, Line
 from tappet.project.durations import duration_ns
 from tappet.project.model import ProjectObject
@@ -38,11 +36,11 @@ class WatchdogData(Data):
     percent: StrictInt | None = Field(
         default=None,
         ge=1,
-        le=1_000_000,
+        le=SOFT_PLC.most_percent,
         description="Percent of the interval instead of the time; cyclic tasks.",
     )
     sensitivity: StrictInt = Field(
-        default=1, ge=0, le=1_000_000, description="Number of overruns that are one too many."
+        default=1, ge=0, le=SOFT_PLC.most_sensitivity, description="Number of overruns that are one too many."
     )
 
 
@@ -50,9 +48,12 @@ class TaskData(Data):
     """A task: when it runs and what it calls (tasks.md, section 2)."""
 
     priority: StrictInt = Field(
-        default=1, ge=0, le=31, description="0 is the highest, 31 the lowest (TASK-11)."
+        default=1,
+        ge=SOFT_PLC.highest_priority,
+        le=SOFT_PLC.lowest_priority,
+        description="0 is the highest, 31 the lowest (TASK-11).",
     )
-    type: Literal["cyclic", "freewheeling", "event", "status", "external"] = "cyclic"
+    type: TaskKind = "cyclic"
     interval: Duration = Field(
         default="T#20ms", description="TIME literal or microseconds; cyclic tasks (TASK-12)."
     )

@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import Field, StrictBool, StrictInt, model_validator
 
 from tappet.iec.system_events import SystemEventName
-from tappet.iec.task import Task, TaskPolicy
+from tappet.iec.task import SOFT_PLC, Task, TaskPolicy
 from tappet.project.data import Data, Line
 from tappet.project.model import Project, ProjectObject
 from tappet.project.naming import name_key
@@ -25,9 +25,6 @@ from tappet.project.object_kind import (
 )
 from tappet.project.source_text import SourceWriter
 from tappet.project.task_events import events_around
-
-MOST_PROCESSORS = 1024
-"""Processors that a set of the operating system has room for."""
 
 
 class SystemEventCall(Data):
@@ -45,7 +42,7 @@ class TaskGroup(Data):
     """Tasks that share processors."""
 
     name: Line = Field(min_length=1, pattern=r"^[A-Za-z_]\w*$", description="Unique in the configuration.")
-    processors: tuple[Annotated[StrictInt, Field(ge=0, le=MOST_PROCESSORS - 1)], ...] = Field(
+    processors: tuple[Annotated[StrictInt, Field(ge=0, le=SOFT_PLC.processors - 1)], ...] = Field(
         default=(), description="Numbers of the processors of the host, from 0; none: as the runtime does it."
     )
     policy: TaskPolicy = Field(

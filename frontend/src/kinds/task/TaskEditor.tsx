@@ -2,6 +2,7 @@ import { ofKind } from '@/api/objects';
 import { useObjects } from '@/api/queries';
 import type { TaskData } from '@/api/types';
 import { useText } from '@/i18n';
+import { SOFT_PLC, SOFT_PLC_EXTERNAL_EVENTS, SOFT_PLC_KINDS } from '@/iec/softPlc';
 import { objectIcon } from '@/project/kinds';
 import type { EditorProps } from '@/project/editorProps';
 import { Checkbox, Field, Select, TextInput } from '@/ui/Field';
@@ -9,12 +10,11 @@ import { FormPage, Section } from '@/editors/form/FormPage';
 import styles from '@/editors/form/Form.module.css';
 import { useDraft } from '@/editors/form/useDraft';
 import { EventField } from './EventField';
-import { callablePrograms, canStore, EXTERNAL_EVENTS, externalEvent, NO_GROUP, sameName, taskFaults } from './model';
+import { callablePrograms, canStore, externalEvent, NO_GROUP, sameName, taskFaults } from './model';
 import { ProgramList } from './ProgramList';
 import { TimeField } from './TimeField';
 import { useGroups } from './useGroups';
 
-const TYPES: readonly TaskData['type'][] = ['cyclic', 'freewheeling', 'event', 'status', 'external'];
 const TaskIcon = objectIcon('task');
 
 /** Priority, type, watchdog and the programs of one task. */
@@ -28,7 +28,7 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
     <FormPage draft={draft}>
       {(task) => {
         const faults = taskFaults(task);
-        const fault = (key: keyof typeof faults) => (faults[key] ? t(faults[key]) : null);
+        const fault = (key: keyof typeof faults) => (faults[key] ? t(faults[key], SOFT_PLC) : null);
         const change = (changes: Partial<TaskData>) => draft.change({ ...task, ...changes });
         const watchdog = (changes: Partial<TaskData['watchdog']>) =>
           change({ watchdog: { ...task.watchdog, ...changes } });
@@ -40,14 +40,14 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
             </h1>
             <Section title={t('task.configuration')}>
               <div className={styles.fields}>
-                <Field row label={t('task.priority')} hint={t('task.priorityHint')} error={fault('priority')}>
+                <Field row label={t('task.priority')} hint={t('task.priorityHint', SOFT_PLC)} error={fault('priority')}>
                   {(attributes) => (
                     <TextInput
                       {...attributes}
                       className={styles.narrow}
                       type="number"
-                      min={0}
-                      max={31}
+                      min={SOFT_PLC.highestPriority}
+                      max={SOFT_PLC.lowestPriority}
                       disabled={disabled}
                       value={Number.isNaN(task.priority) ? '' : task.priority}
                       onValue={(value) => change({ priority: value === '' ? Number.NaN : Number(value) })}
@@ -60,7 +60,7 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
                       {...attributes}
                       disabled={disabled}
                       value={task.type}
-                      choices={TYPES.map((type) => ({ value: type, text: t(`taskType.${type}`) }))}
+                      choices={SOFT_PLC_KINDS.map((type) => ({ value: type, text: t(`taskType.${type}`) }))}
                       onValue={(type) => change({ type })}
                     />
                   )}
@@ -91,7 +91,7 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
                         {...attributes}
                         disabled={disabled}
                         value={externalEvent(task.event)}
-                        choices={EXTERNAL_EVENTS.map((value) => ({ value, text: value }))}
+                        choices={SOFT_PLC_EXTERNAL_EVENTS.map((value) => ({ value, text: value }))}
                         onValue={(event) => change({ event })}
                       />
                     )}
@@ -152,6 +152,7 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
                             className={styles.narrow}
                             type="number"
                             min={1}
+                            max={SOFT_PLC.mostPercent}
                             disabled={disabled}
                             value={Number.isNaN(task.watchdog.percent) ? '' : (task.watchdog.percent ?? '')}
                             onValue={(value) => watchdog({ percent: value === '' ? Number.NaN : Number(value) })}
@@ -179,6 +180,7 @@ export default function TaskEditor({ panelId, projectId, objectId }: EditorProps
                           className={styles.narrow}
                           type="number"
                           min={0}
+                          max={SOFT_PLC.mostSensitivity}
                           disabled={disabled}
                           value={Number.isNaN(task.watchdog.sensitivity) ? '' : task.watchdog.sensitivity}
                           onValue={(value) => watchdog({ sensitivity: value === '' ? Number.NaN : Number(value) })}

@@ -59,6 +59,18 @@ describe('settings', () => {
     });
   });
 
+  it('are those of the device, up to their last value (TASK-07)', () => {
+    const watchdog = { enabled: true, time: 't#1s', percent: 1_000_000, sensitivity: 1_000_000 };
+    for (const priority of [0, 31]) expect(taskFaults(task({ priority, watchdog }))).toEqual({});
+    expect(taskFaults(task({ priority: -1 })).priority).toBe('task.priorityFault');
+    expect(taskFaults(task({ watchdog: { ...watchdog, percent: 1_000_001 } })).watchdogPercent).toBe(
+      'task.percentFault',
+    );
+    expect(taskFaults(task({ watchdog: { ...watchdog, sensitivity: 1_000_001 } })).sensitivity).toBe(
+      'task.sensitivityFault',
+    );
+  });
+
   it('may have a watchdog in percent of the interval (TASK-30)', () => {
     const watchdog = { enabled: true, time: 't#0ms', percent: 150, sensitivity: 1 };
     expect(taskFaults(task({ watchdog }))).toEqual({});

@@ -1,5 +1,6 @@
 /** A task's settings: what may be entered, how times are read and shown (tasks.md, sections 2 and 3). Pure functions. */
 import { timeLiteral } from '@/iec/duration';
+import { SOFT_PLC, SOFT_PLC_EXTERNAL_EVENTS } from '@/iec/softPlc';
 import { valuesOf } from '@/project/kinds';
 import type { ObjectSummary, TaskData, TaskPou } from '@/api/types';
 import type { TextKey } from '@/i18n';
@@ -45,7 +46,7 @@ export type TaskFaults = Partial<
 export function taskFaults(task: TaskData): TaskFaults {
   const faults: TaskFaults = {};
   const whole = (value: number, low: number, high: number) => Number.isInteger(value) && value >= low && value <= high;
-  if (!whole(task.priority, 0, 31)) faults.priority = 'task.priorityFault';
+  if (!whole(task.priority, SOFT_PLC.highestPriority, SOFT_PLC.lowestPriority)) faults.priority = 'task.priorityFault';
   if (task.type === 'cyclic') {
     const interval = intervalNs(task.interval);
     if (interval === null) faults.interval = 'task.timeFault';
@@ -56,9 +57,9 @@ export function taskFaults(task: TaskData): TaskFaults {
   if (task.watchdog.enabled) {
     const time = intervalNs(task.watchdog.time);
     if (task.type === 'cyclic' && task.watchdog.percent !== null) {
-      if (!whole(task.watchdog.percent, 1, 1_000_000)) faults.watchdogPercent = 'task.percentFault';
+      if (!whole(task.watchdog.percent, 1, SOFT_PLC.mostPercent)) faults.watchdogPercent = 'task.percentFault';
     } else if (time === null || time <= 0) faults.watchdogTime = 'task.timeFault';
-    if (!whole(task.watchdog.sensitivity, 0, 1_000_000)) faults.sensitivity = 'task.sensitivityFault';
+    if (!whole(task.watchdog.sensitivity, 0, SOFT_PLC.mostSensitivity)) faults.sensitivity = 'task.sensitivityFault';
   }
   return faults;
 }
@@ -69,12 +70,9 @@ export function canStore(task: TaskData): boolean {
   return Object.keys(faults).length === 0;
 }
 
-/** Events of the controller that a task can wait for (TASK-16). */
-export const EXTERNAL_EVENTS = ['StartDone', 'OnlineChangeDone', 'SIGUSR1', 'SIGUSR2'] as const;
-
-/** The external event of this name; null where the controller has none. */
-export function externalEvent(name: string): (typeof EXTERNAL_EVENTS)[number] | null {
-  return EXTERNAL_EVENTS.find((event) => sameName(event, name.trim())) ?? null;
+/** The external event of this name (TASK-16); null where the controller has none. */
+export function externalEvent(name: string): (typeof SOFT_PLC_EXTERNAL_EVENTS)[number] | null {
+  return SOFT_PLC_EXTERNAL_EVENTS.find((event) => sameName(event, name.trim())) ?? null;
 }
 
 /** Stands for no group: a choice of a list needs a value. */

@@ -13,7 +13,6 @@ import { useOnline } from '@/workbench/onlineSession';
 import { mayEdit } from '@/workbench/rights';
 import { reasonText, runCommand } from '@/workbench/run';
 import { applicationOf } from '@/project/tree';
-import { Facts } from '@/ui/Facts';
 import { Button } from '@/ui/Button';
 import { Empty, Loading } from '@/ui/Empty';
 import { Table } from '@/ui/Table';
@@ -27,10 +26,8 @@ import { canStore } from './events';
 import { GroupsSection } from './GroupsSection';
 import { MonitoringPage } from './MonitoringPage';
 import { SystemEventsPage } from './SystemEventsPage';
+import { TargetSection } from './TargetSection';
 import { useLoad } from './useLoad';
-
-/** The compiler refuses more. */
-const MOST_TASKS = 64;
 
 interface TaskLine {
   object: ObjectSummary;
@@ -189,22 +186,7 @@ function Overview({
           tasks={lines.map(({ object, task }) => ({ name: object.name, group: task?.group ?? '' }))}
           there={load?.processors ?? null}
         />
-        <Section title={t('taskConfiguration.target')}>
-          <Facts>
-            <dt>{t('taskConfiguration.most')}</dt>
-            <dd>{t('taskConfiguration.mostText', { count: MOST_TASKS })}</dd>
-            <dt>{t('taskConfiguration.priorities')}</dt>
-            <dd>{t('taskConfiguration.prioritiesText')}</dd>
-            <dt>{t('taskConfiguration.types')}</dt>
-            <dd>
-              {listed(
-                (['cyclic', 'freewheeling', 'event', 'status', 'external'] as const).map((type) =>
-                  t(`taskType.${type}`),
-                ),
-              )}
-            </dd>
-          </Facts>
-        </Section>
+        <TargetSection />
       </div>
     </div>
   );

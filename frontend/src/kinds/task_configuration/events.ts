@@ -1,6 +1,7 @@
 /** System events and task groups: what they are called, and what may be entered. Pure functions. */
 import type { ObjectSummary, SystemEventCall, TaskConfigurationData, TaskGroup } from '@/api/types';
 import type { TextKey } from '@/i18n';
+import { SOFT_PLC } from '@/iec/softPlc';
 import { valuesOf } from '@/project/kinds';
 import { applicationOf } from '@/project/tree';
 
@@ -46,7 +47,7 @@ export function callableAtEvents(objects: readonly ObjectSummary[], configuratio
 /** `0, 2` as numbers of processors, each once and in order; null when it is no such list. */
 export function processorsFrom(text: string): number[] | null {
   const parts = text.split(/[\s,;]+/).filter((part) => part !== '');
-  if (!parts.every((part) => /^\d{1,4}$/.test(part) && Number(part) < 1024)) return null;
+  if (!parts.every((part) => /^\d{1,4}$/.test(part) && Number(part) < SOFT_PLC.processors)) return null;
   return [...new Set(parts.map(Number))].sort((a, b) => a - b);
 }
 
