@@ -120,6 +120,14 @@ class Wanted:
         return Breakpoint(self.id, self.order, reason is None, reason, self.hit_count, actual)
 
 
+def check_order(order: BreakpointOrder) -> None:
+    """Raises ValueError for one that names nothing to halt at."""
+    if order.kind == "line" and order.place is None:
+        raise ValueError("a line breakpoint needs a place")
+    if order.kind == "data" and not order.expression:
+        raise ValueError("a data breakpoint needs the expression of a variable")
+
+
 class BreakpointTable:
     """The native table of all breakpoints that may halt, and the memory that it consists of."""
 

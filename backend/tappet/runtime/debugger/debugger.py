@@ -16,8 +16,8 @@ from tappet.codegen.debug_code import DebugCode
 from tappet.codegen.package import PackageError
 from tappet.codegen.values import Value
 from tappet.runtime.contexts import RUNNING, STOPPED
-from tappet.runtime.debugger import frames, kept, log_points
-from tappet.runtime.debugger.breakpoints import MOST, BreakpointTable, Wanted
+from tappet.runtime.debugger import frames, kept, log_points, stacks, stepping
+from tappet.runtime.debugger.breakpoints import MOST, BreakpointTable, Wanted, check_order
 from tappet.runtime.debugger.flow_control import FlowControl
 from tappet.runtime.debugger.next_statement import next_statement
 from tappet.runtime.debugger.places import code_spot
@@ -43,9 +43,6 @@ if TYPE_CHECKING:
     from tappet.runtime.plc import SoftPlc
 
 _REASONS: dict[int, Reason] = {1: "breakpoint", 2: "step", 3: "pause", 4: "data", 5: "run_to"}
-_RUN, _INTO, _FRAMES = 0, 1, 2
-STEP_PATIENCE_S = 0.25
-"""A step mostly ends at once: its answer then says where."""
 
 
 class Debugger:
@@ -246,10 +243,7 @@ class Debugger:
             return wanted.shown(self.variant)
 
     def _place(self, order: BreakpointOrder, kind: str) -> Wanted:
-        if order.kind == "line" and order.place is None:
-            raise ValueError("a line breakpoint needs a place")
-        if order.kind == "data" and not order.expression:
-            raise ValueError("a data breakpoint needs the expression of a variable")
+        check_order(order)
         self._last_id += 1
         wanted = self._wanted[self._last_id] = Wanted(self._last_id, order, kind)
         variant = self.variant
@@ -301,23 +295,24 @@ class Debugger:
         """Halt, go on or step. Raises DebugError when that is not possible now."""
         if command in ("run_to", "next_statement") and spot is None:
             raise ValueError(f"{command} needs a place")
-        stepping: int | None = None
+        stepped: int | None = None
         with self._lock:
             variant = self._need()
             if command == "pause":
-                self._pause(variant, task)
+                stepping.ask_to_pause(variant, task)
+                self._changed()
             elif command == "continue":
-                halted = variant.halted() if task is None else [self._one(variant, task)]
+                halted = variant.halted() if task is None else [stepping.halted_task(variant, task)]
                 if not halted:
                     raise DebugError("no task is halted")
                 self._go_on(variant, halted)
             elif command == "single_cycle":
                 self._end_cycle(variant)
             else:
-                stepping = self._one(variant, task)
-                self._step(variant, command, stepping, spot)
-        if stepping is not None:
-            self._await_halt(variant, stepping)
+                stepped = stepping.halted_task(variant, task)
+                self._step(variant, command, stepped, spot)
+        if stepped is not None:
+            self._await_halt(variant, stepped)
         return self.state()
 
     def _need(self) -> Variant:
@@ -327,49 +322,10 @@ class Debugger:
             raise DebugError("the instrumented variant of the application is not loaded")
         return variant
 
-    def _task(self, variant: Variant, name: str) -> int:
-        names = [task.name.upper() for task in variant.application.package.tasks]
-        if name.upper() not in names:
-            raise DebugError(f"the application has no task '{name}'")
-        return names.index(name.upper())
-
-    def _one(self, variant: Variant, name: str | None) -> int:
-        """The halted task that is meant."""
-        halted = variant.halted()
-        if name is not None:
-            task = self._task(variant, name)
-            if task not in halted:
-                raise DebugError(f"task '{name}' is not halted")
-            return task
-        if len(halted) != 1:
-            raise DebugError("several tasks are halted: name one" if halted else "no task is halted")
-        return halted[0]
-
-    def _pause(self, variant: Variant, task: str | None) -> None:
-        if variant.application.tasks.state != RUNNING:
-            raise DebugError("the application does not run")
-        tasks = range(len(variant.tasks)) if task is None else [self._task(variant, task)]
-        for i in tasks:
-            if not variant.tasks[i]["halted"]:
-                variant.executive.store_flag(variant.tasks[i].place("pause"), 1)
-        self._changed()
-
-    def _go_on(self, variant: Variant, tasks: list[int], mode: int = _RUN) -> None:
-        for i in tasks:
-            variant.tasks[i]["mode"] = mode
-        if mode == _RUN and len(tasks) == len(variant.halted()):
-            for task in variant.tasks:
-                task["pause"] = 0
+    def _go_on(self, variant: Variant, tasks: list[int], mode: int = stepping.RUN) -> None:
+        stepping.order(variant, tasks, mode)
         self._direct()
-        for i in tasks:
-            variant.executive.store_flag(variant.tasks[i].place("resume"), 1)
-        self._await_gone(variant, tasks)
-
-    def _await_gone(self, variant: Variant, tasks: list[int]) -> None:
-        """Until the tasks have taken the order: one that halts again has halted anew."""
-        end = time.monotonic() + STEP_PATIENCE_S
-        while any(variant.tasks[i]["resume"] for i in tasks) and time.monotonic() < end:
-            time.sleep(0.0002)
+        stepping.resume(variant, tasks)
 
     def _end_cycle(self, variant: Variant) -> None:
         halted = variant.halted()
@@ -381,7 +337,7 @@ class Debugger:
         self._plc.announce("state")
 
     def _step(self, variant: Variant, command: Command, task: int, spot: Spot | None) -> None:
-        mode = _RUN
+        mode = stepping.RUN
         if command == "run_to":
             assert spot is not None
             wanted = self._place(BreakpointOrder(place=spot), "run_to")
@@ -389,22 +345,19 @@ class Debugger:
                 del self._wanted[wanted.id]
                 raise DebugError(wanted.reason)
         elif command == "step_into":
-            mode = _INTO
+            mode = stepping.INTO
         elif command == "next_statement":
             assert spot is not None
             variant.tasks[task]["jump"] = 1 + next_statement(variant, task, spot)
-            mode = _INTO
+            mode = stepping.INTO
         else:
-            mode = _FRAMES
+            mode = stepping.FRAMES
             self._last_step = self._last_step % 0x7FFF_FFFF + 1
-            stack = frames.stack_of_halted(variant, task)
-            for activation in stack.activations[1 if command == "step_out" else 0 :]:
-                frames.mark(variant, activation, self._last_step)
-            variant.tasks[task]["mark"] = self._last_step
+            stepping.mark_frames(variant, task, command, self._last_step)
         self._go_on(variant, [task], mode)
 
     def _await_halt(self, variant: Variant, task: int) -> None:
-        end = time.monotonic() + STEP_PATIENCE_S
+        end = time.monotonic() + stepping.STEP_PATIENCE_S
         while time.monotonic() < end:
             with self._lock:
                 if self.variant is not variant or task in variant.halted():
@@ -433,35 +386,14 @@ class Debugger:
     def stack(self, task: str) -> Stack:
         """The call stack of a halted task, or of one that a fault in instrumented code has ended."""
         with self._lock:
-            variant = self._need()
-            number, found = self._stack(variant, task)
-            levels = frames.levels(variant, found)
-            name = variant.application.package.tasks[number].name
-            return Stack(name, variant.application.contexts.tasks[number]["cycle"], levels)
-
-    def _stack(self, variant: Variant, task: str) -> tuple[int, frames.TaskStack]:
-        number = self._task(variant, task)
-        if number in variant.halted():
-            return number, frames.stack_of_halted(variant, number)
-        if variant.application.contexts.faulted_task() == number:
-            found = frames.stack_of_fault(variant, number)
-            if found is not None:
-                return number, found
-        raise DebugError(f"task '{task}' is not halted")
-
-    def _frame(self, task: str, frame: int) -> frames.FrameValues:
-        variant = self._need()
-        _, stack = self._stack(variant, task)
-        if not 0 <= frame < len(stack.activations):
-            raise DebugError(f"the call stack of '{task}' has {len(stack.activations)} levels, from 0")
-        return frames.FrameValues(variant, stack, stack.activations[frame])
+            return stacks.shown(self._need(), task)
 
     def variables(self, task: str, frame: int) -> Variables:
         """The variables of a level of a call stack."""
         with self._lock:
-            return Variables(self._frame(task, frame).all())
+            return Variables(stacks.level(self._need(), task, frame).all())
 
     def write(self, task: str, frame: int, name: str, value: Value) -> Variable:
         """Write a local variable of a halted task. ValueError for a wrong name or value."""
         with self._lock:
-            return self._frame(task, frame).write(name, value)
+            return stacks.level(self._need(), task, frame).write(name, value)
