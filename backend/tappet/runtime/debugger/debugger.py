@@ -40,7 +40,7 @@ from tappet.runtime.errors import DebugError, UnknownBreakpointError
 from tappet.runtime.link import LinkError
 
 if TYPE_CHECKING:
-    from tappet.runtime.plc import SoftPlc
+    from tappet.runtime.plc_state import PlcState
 
 _REASONS: dict[int, Reason] = {1: "breakpoint", 2: "step", 3: "pause", 4: "data", 5: "run_to"}
 
@@ -48,7 +48,7 @@ _REASONS: dict[int, Reason] = {1: "breakpoint", 2: "step", 3: "pause", 4: "data"
 class Debugger:
     """One per soft PLC, which serialises the calls by its lock."""
 
-    def __init__(self, plc: SoftPlc) -> None:
+    def __init__(self, plc: PlcState) -> None:
         self._plc = plc
         self._lock = plc.lock
         self._settings = Settings()
