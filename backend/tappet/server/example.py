@@ -13,6 +13,7 @@ from tappet.server.audited import ActRecord
 from tappet.server.auth.identity import Identity
 from tappet.server.auth.roles import Role
 from tappet.server.builds.recording import recording
+from tappet.server.builds.shapes import LoadOrder
 from tappet.server.projects.examples import example_content, find_example
 from tappet.server.runtimes.links import RuntimeLink
 from tappet.server.services import Services
@@ -41,9 +42,8 @@ async def run_example(services: Services, project_id: str) -> None:
         )
         begin = recording(act, project_id, link)
         try:
-            await services.commissioning.download(
-                project_id, application.id, link, "download", start=True, begin=begin, project=project
-            )
+            order = LoadOrder(runtime_id=link.id, mode="download")
+            await services.commissioning.download(project_id, application.id, link, order, begin, project)
         except Exception as error:
             refused = Act("download", application.name, project_id=project_id, runtime_id=link.id)
             await run_in_threadpool(act.stop, error, refused)

@@ -21,10 +21,16 @@ from tappet.runtime.operations.life_cycle import Reset, Start
 from tappet.server.builds.builder import Application, Builder, Built
 from tappet.server.builds.packages import PackageStore, StoredPackage
 from tappet.server.builds.remanent_changes import remanent_changes
-from tappet.server.builds.shapes import BuildReport, ChangedVariable, LoginReport, Relation, ReserveUse
+from tappet.server.builds.shapes import (
+    BuildReport,
+    ChangedVariable,
+    LoadOrder,
+    LoginReport,
+    Relation,
+    ReserveUse,
+)
 from tappet.server.problems import Problem
 from tappet.server.runtimes.links import RuntimeLink
-from tappet.server.runtimes.plc_client import LoadMode
 from tappet.translation.language import Language
 
 log = logging.getLogger(__name__)
@@ -193,15 +199,12 @@ class Commissioning:
         project_id: str,
         application_id: str,
         link: RuntimeLink,
-        mode: LoadMode,
-        start: bool,
+        order: LoadOrder,
         begin: Begin,
         project: Project,
-        *,
-        initialise_persistent: bool = False,
     ) -> Built:
         """Builds and loads; `begin` is called right before what changes the runtime. `project` is what is
-        built, with its further files. A download may begin with new persistent variables.
+        built, with its further files.
 
         Raises problems: 422 errors in the project, 409 no such online change, or loaded but not started.
         """
@@ -211,7 +214,7 @@ class Commissioning:
             loaded = await run_in_threadpool(self.packages.find, link.info.code_id)
             if loaded and (loaded.project_id, loaded.application_id) != (project_id, application_id):
                 loaded = None
-        if mode == "online_change" and loaded is None:
+        if order.mode == "online_change" and loaded is None:
             raise Problem(
                 409,
                 "no-online-change",
@@ -225,16 +228,16 @@ class Commissioning:
         # Kept first: without it the next login would take the application for a stranger's.
         await run_in_threadpool(self.packages.put, project_id, application_id, code_id, package)
         async with link.client() as client:
-            if initialise_persistent and mode == "download" and loaded is not None:
+            if order.initialise_persistent and order.mode == "download" and loaded is not None:
                 await begin("reset_origin", built)
                 await client.call(Reset("origin"))
-            await begin(mode, built)
-            await client.download(package, mode)
+            await begin(order.mode, built)
+            await client.download(package, order.mode)
         try:  # what is loaded runs without it, too
             await run_in_threadpool(self.packages.put_source, project_id, application_id, code_id, project)
         except OSError:
             log.exception("the source of '%s' was not kept, so nothing can be compared with it", link.name)
-        if start and mode == "download":
+        if order.start and order.mode == "download":
             await begin("start", built)
             await _start(link, built)
         await link.refresh()

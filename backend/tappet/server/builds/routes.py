@@ -181,16 +181,7 @@ async def download(
     )
     if with_source:
         check_wanted(project, application_id)
-    built = await commissioning.download(
-        project_id,
-        application_id,
-        link,
-        body.mode,
-        body.start,
-        begin,
-        project,
-        initialise_persistent=body.initialise_persistent,
-    )
+    built = await commissioning.download(project_id, application_id, link, body, begin, project)
     services.debug.restore(link)
     source, problem = None, None
     if with_source:

@@ -79,16 +79,7 @@ async def restore_version(
     link = runtimes.get(body.runtime_id)
     begin = recording(act, project_id, link)
     project = await run_in_threadpool(source_of, commissioning.packages, code_id)
-    built = await commissioning.download(
-        project_id,
-        application_id,
-        link,
-        body.mode,
-        body.start,
-        begin,
-        project,
-        initialise_persistent=body.initialise_persistent,
-    )
+    built = await commissioning.download(project_id, application_id, link, body, begin, project)
     services.debug.restore(link)
     info = link.info
     report = DownloadReport(
