@@ -1,4 +1,4 @@
-"""SM3_CNC: probing movements (G31, PROBE): stop at the signal, rest dropped, the program goes on from there. Spec cnc 8, 9."""
+"""SM3_CNC: probing movements (G31, PROBE): they stop at the signal, the program goes on there. Spec cnc 8."""
 
 from __future__ import annotations
 
@@ -34,7 +34,8 @@ VAR
 END_VAR
 ncprog.pgc := ADR(aWords);
 WHILE n < {CALLS} AND NOT ipo.bDone AND NOT ipo.bError DO
-    dec(ncprog := ncprog, bExecute := TRUE, nSizeOutQueue := SIZEOF(aBuffer), pbyBufferOutQueue := ADR(aBuffer));
+    dec(ncprog := ncprog, bExecute := TRUE, nSizeOutQueue := SIZEOF(aBuffer),
+        pbyBufferOutQueue := ADR(aBuffer));
     check(bExecute := TRUE, poqDataIn := dec.poqDataOut);
     IF xAcknowledges THEN
         ipo.bSlow_Stop := ipo.iProbe > 0 AND ipo.piSetPosition.dX + ipo.piSetPosition.dY >= fSignal;

@@ -5,8 +5,13 @@ from __future__ import annotations
 import pytest
 from tests.libraries.transformations import CATALOG, OURS
 
-PINS_BEYOND = {"SMC_NCDecoder": {"inputs": {"fTimeBudget"}, "outputs": {"sErrorWord"}}}
-"""The time a call may take (CNCR-04), and the word at fault."""
+_PLACE = ["errorPos", "sErrorProgram", "sErrorWord", "sErrorText"]
+PINS_BEYOND: dict[str, dict[str, list[str]]] = {
+    "SMC_NCDecoder": {"inputs": ["fTimeBudget"], "outputs": ["sErrorWord"]},
+    "SMC_ReadNCFile2": {"inputs": ["pCustomFunTable", "aTokenModifier"], "outputs": _PLACE},
+    "SMC_NCInterpreter": {"inputs": ["fTimeBudget"], "outputs": _PLACE},
+}
+"""The time a call may take (CNCR-04), the word at fault and where it is, and what today's SoftMotion has."""
 TYPES = {
     ("SMC_GCodeViewer", "iActObjectSourceNo"): "DINT",
     ("SMC_GCodeViewer", "asGCode"): "ARRAY[0..c_uiLines]OFSTRING(255)",
@@ -14,7 +19,10 @@ TYPES = {
 """Line numbers beyond 32,767 (CNCR-C20); lines longer than 80 characters."""
 OPEN = {"piStartPosition", "ncprog", "poqDataOut", "iStatus", "GCodeText", "asGCode"}
 """Their initial values are those of their types."""
-BLOCKS = ("SMC_NCDecoder", "SMC_ReadNCFile", "SMC_ReadNCQueue", "SMC_GCodeViewer")
+BLOCKS = (
+    *("SMC_NCDecoder", "SMC_ReadNCFile", "SMC_ReadNCQueue", "SMC_GCodeViewer"),
+    *("SMC_ReadNCFile2", "SMC_NCInterpreter"),
+)
 
 
 @pytest.mark.parametrize("name", BLOCKS)
@@ -23,7 +31,7 @@ def test_pins_are_those_of_the_catalog(name: str, section: str) -> None:
     """Names in their order, types, initial values; what is beyond stands behind them."""
     said = {pin["name"]: pin for pin in CATALOG[name][section]}
     ours = {pin.name: pin for pin in getattr(OURS[name], section)}
-    beyond = PINS_BEYOND.get(name, {}).get(section, set())
+    beyond = PINS_BEYOND.get(name, {}).get(section, [])
     assert [*ours] == [*said, *beyond]
     for pin, entry in said.items():
         wanted = TYPES.get((name, pin), entry["type"]).replace(" ", "").removeprefix("SM3_Basic.")

@@ -41,6 +41,7 @@ VAR
     fSum     : LREAL; (* Of the ends, each times its number *)
     afEnds   : ARRAY[0..{OBJECTS * len(MEMBERS) - 1}] OF LREAL;
     aiKinds  : ARRAY[0..{OBJECTS - 1}] OF DINT;
+    afParameters : ARRAY[0..{OBJECTS - 1}] OF LREAL;
     afLengths : ARRAY[0..{OBJECTS - 1}] OF LREAL;
     stLast   : SMC_GEOINFO;
     sText    : STRING(255);
@@ -84,6 +85,7 @@ WHILE xTakes AND SMC_GetCount(nci.poqDataOut) > 0 DO
     IF nTaken < {OBJECTS} THEN
         aiKinds[nTaken] := stLast.iMoveType;
         afLengths[nTaken] := stLast.dLength;
+        afParameters[nTaken] := stLast.dT1;
         {
     "".join(
         f"afEnds[nTaken * {len(MEMBERS)} + {i}] := stLast.piDestPos.{name};" for i, name in enumerate(MEMBERS)
@@ -218,6 +220,8 @@ class Outcome:
     """X Y Z A P Q at the end of each object."""
     kinds: list[int]
     lengths: list[float]
+    parameters: list[float]
+    """Words K of M functions."""
     messages: tuple[str, str]
     """Of the reader and of the interpreter."""
 
@@ -273,5 +277,6 @@ class Interpreter(FileProgram):
             [tuple(ends[n * width : (n + 1) * width]) for n in range(count)],
             [int(kind) for kind in self.numbers("aiKinds")[:count]] if count else [],
             self.numbers("afLengths")[:count] if count else [],
+            self.numbers("afParameters")[:count] if count else [],
             (self.literal("rf.sErrorText").strip("'"), self.literal("nci.sErrorText").strip("'")),
         )
