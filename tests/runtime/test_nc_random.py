@@ -108,7 +108,7 @@ def test_any_text_is_read_or_refused_with_its_place(
 
 
 def test_a_long_program_in_bounded_memory(tmp_path: Path) -> None:
-    """10,000 blocks through queues of 64 sentences and 50 objects; a loop that calls a subprogram 200 times."""
+    """10,000 blocks through queues of 64 sentences and 50 objects; a loop with 200 calls."""
     with Interpreter.running(tmp_path) as program:
         count = 10_000
         lines = [f"N{n} G1 X#n + {n} Y{n % 7}\n" for n in range(1, count + 1)]

@@ -24,7 +24,8 @@ VAR
     fX       : LREAL;
     n        : UDINT;
 END_VAR
-pcf(bExecute := xExecute, sFileName := 'main.cnc', pBuffer := ADR(aPoints), udiNumberOfPointsInArray := nRoom);
+pcf(bExecute := xExecute, sFileName := 'main.cnc', pBuffer := ADR(aPoints),
+    udiNumberOfPointsInArray := nRoom);
 FOR n := 0 TO {POINTS - 1} DO
     afPoints[4 * n] := aPoints[n].v.dX;
     afPoints[4 * n + 1] := aPoints[n].v.dY;
@@ -67,7 +68,7 @@ def tracks(tmp_path: Path) -> Iterator[Tracks]:
 
 
 def test_lines_and_curves_of_a_file(tracks: Tracks) -> None:
-    """Ends of lines with their N; an arc in pieces of one unit on its circle; a subprogram, and a synchronisation."""
+    """Ends of lines with their N; an arc in pieces of one unit; a subprogram, and a synchronisation."""
     (tracks.folder / "side.cnc").write_text("SUBPROGRAM Side{#y : LREAL}\nN7 G1 Y#y\nEND_SUBPROGRAM")
     points = tracks.copy("N1 G0 X10\nN2 G1 Y5\nN3 G75\nN4 Side{0}\nN5 G2 X30 Y0 R10\nN6 G31 X40")
     assert tracks.literal("pcf.bDone") == "TRUE"
