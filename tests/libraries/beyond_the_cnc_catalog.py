@@ -38,3 +38,26 @@ ENUMERATIONS = {
     "SMC_ArticulatedRobot_6DOF_J1_State": {"DOWN": -1, "STRAIGHT": 0, "UP": 1},
     "SMC_ArticulatedRobot_6DOF_J4_State": {"DOWN": -1, "STRAIGHT": 0, "UP": 1},
 }
+PROGRAM_ITEMS: dict[str, list[str]] = {
+    "SMC_NC_GFunction": ["stName", "iFunc"],
+    "SMC_NC_GFunctionTable": ["numFunctions", "pFunction"],
+    "SMC_GVar_Type": ["T_UNKNOWN", "T_BOOL", "T_LREAL", "T_STRING", "T_OTHER"],
+    "SMC_PositionTracker": [
+        *("bEnable", "bClear", "dX", "dY", "dZ", "udiNumberOfPointsInArray", "pBuffer"),
+        "vs3dt",
+    ],
+    "SMC_PathCopierFile": [
+        *("bExecute", "udiNumberOfPointsInArray", "pBuffer", "sFileName", "pvl", "piStartPosition"),
+        *("aSubProgramDirs", "bParenthesesAsComments", "bEnableSyntaxChecks", "bStepSuppress"),
+        *("pCustomFunTable", "dPrecision"),
+        *("bDone", "bBusy", "bError", "iErrorID", "vs3dt"),
+    ],
+    "VisuStruct3DTrack": [
+        *("pData", "udiNumberOfPointsInArray", "udiFirstPoint", "udiNumberOfPointsToDraw"),
+    ],
+    "VisuStruct3DPathPoint": ["v", "udiSourceElementID", "dwAddInfo"],
+}
+"""Programs, functions of the application and tracks: pins, members or values.
+
+SMC_ITokenModifier, SMC_NC_IFunction and SMC_TokenQueue are interfaces and methods; tests/runtime uses them.
+"""

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.libraries.beyond_the_cnc_catalog import PROGRAM_ITEMS
 
 from tappet.libraries import load
 from tappet.libraries.catalog import Item, Pin, items
@@ -20,16 +21,13 @@ CATALOG: dict[str, dict[str, Any]] = {
 OURS: dict[str, Item] = {item.name: item for item in items(load("SM3_CNC"))}
 ELSEWHERE = {"SMC_INT_STATUS"}
 """In SM3_Basic."""
-OF_FILES = {"SMC_ReadNCFile2", "SMC_NCInterpreter", "SMC_GSentenceQueue"}
-MANAGERS = {"g_CNCProgManager", "g_CNCQueueManager"}
-"""Reading by sentences, and the managers of programs and queues."""
 LINE_NUMBERS = {"iLine", "iLineNumber", "iActObjectSourceNo"}
 """DINT instead of INT. Spec CNCR-C20."""
 BEYOND: dict[str, set[str]] = {
     "SMC_GCODE_TEXT": {"aiNumbers", "asLines", "iLines"},
     "SMC_GEOINFO": {
         *("vX", "vY", "b3D", "adZ", "v4", "v5", "pPassed", "vToolLength", "adSlopeStart", "adSlopeEnd"),
-        *("wCubic", "wSmoothAxes", "dwFlags"),
+        *("wCubic", "wSmoothAxes", "dwFlags", "iProbe", "pStopped"),
     },
     "SMC_INT_VELMODE": {"SIGMOID_LIMIT", "QUADRATIC", "QUADRATIC_SMOOTH"},
     "SMC_Interpolator": {"dJerkMax"},
@@ -77,7 +75,7 @@ def _pins(name: str, ours: tuple[Pin, ...], said: list[dict[str, Any]], defaults
 def test_every_item_of_the_catalog_is_there() -> None:
     globals_ = {member.name for item in OURS.values() for member in item.members}
     missing = {*CATALOG} - {*OURS} - ELSEWHERE - globals_
-    assert missing - OF_FILES - MANAGERS <= {"gSMC_MParameters", "MAX_SWITCHES", "c_uiLines"}
+    assert missing <= {"gSMC_MParameters", "MAX_SWITCHES", "c_uiLines"}
 
 
 @pytest.mark.parametrize("name", sorted({*CATALOG} & {*OURS}))
@@ -93,3 +91,12 @@ def test_items_have_the_pins_of_the_catalog(name: str) -> None:
     assert ours.summary
     pins = (*ours.inputs, *ours.outputs, *ours.in_out, *ours.members, *ours.values)
     assert all(part.comment for part in pins)
+
+
+@pytest.mark.parametrize("name", sorted(PROGRAM_ITEMS))
+def test_items_beyond_the_catalog(name: str) -> None:
+    """Names of pins, members and values in their order."""
+    ours = OURS[name]
+    pins = [pin.name for pin in (*ours.inputs, *ours.outputs, *ours.in_out, *ours.members)]
+    assert [*pins, *(value.name for value in ours.values)] == PROGRAM_ITEMS[name]
+    assert ours.summary

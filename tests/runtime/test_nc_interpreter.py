@@ -268,3 +268,65 @@ def test_comments_between_parentheses_with_asterisks(program: Interpreter) -> No
     found = program.run("G1 X(1 + 2} * 3 (* a comment\nG1 X99\n*) Y{2 * (3)}\n(**)G1 X2 (* *) Y1 // (* none")
     assert found.done, found
     assert found.plane == [(9, 0), (9, 6), (2, 1)]
+
+
+def test_pins_of_the_reader(program: Interpreter) -> None:
+    """Default values, 3D mode, suppressed blocks; a list that is none; a file that is not there."""
+    found = program.run("% Part 7\nG1 X3 Z4\n/N2 G1 X9\nG1 X5 F3")
+    assert found.done, found
+    assert (found.lengths[0], found.xs) == (3, [3, 9, 5])
+    assert program.literal("rf.sentences.stProgram") == "'Part 7'"
+    assert program.literal("nci.iLineNumberDecoded") == "3"
+    for pin in ("b3DMode", "bStepSuppress"):
+        program.runtime.write(f"PLC_PRG.rf.{pin}", True)
+    program.runtime.write("PLC_PRG.rf.fDefaultAccelFF", 77.0)
+    found = program.run("G1 X3 Z4\n/G1 X9\nG0 X5")
+    assert (found.lengths[0], found.xs) == (5, [3, 5])
+    assert float(program.literal("stLast.dAccel")) == 77
+    assert program.run("/N2 G20 L99 K1\nN3 G1 X1").done
+    program.runtime.write("PLC_PRG.vl.wVarListID", 7)
+    assert program.run("G1 X3").reader == "SMC_RNCF_NOT_VARLIST"
+    program.runtime.write("PLC_PRG.vl.wVarListID", 0xC51A)
+    (program.folder / "main.cnc").unlink()
+    assert program.run({"other.cnc": ""}).reader == "SMC_RNCF_FILE_DOESNT_EXIST"
+
+
+def test_a_program_that_continues_another(program: Interpreter) -> None:
+    """bAppend of both blocks: modes and position of the program before hold on, the default values do not."""
+    assert program.run("G91\nG1 X5 F33").xs == [5]
+    for block in ("rf", "nci"):
+        program.runtime.write(f"PLC_PRG.{block}.bAppend", True)
+    found = program.run("G1 X2")
+    assert found.done, found
+    assert found.xs == [7]
+    assert float(program.literal("stLast.dVel")) == 33
+
+
+def test_tool_length_and_start(program: Interpreter) -> None:
+    """vStartToolLength until G43 gives another one; piStartPosition."""
+    program.runtime.write("PLC_PRG.nci.vStartToolLength.dZ", 12.0)
+    program.runtime.write("PLC_PRG.nci.piStartPosition.dX", 4.0)
+    found = program.run("G91\nG1 X1")
+    assert found.xs == [5]
+    assert float(program.literal("stLast.vToolLength.dZ")) == 12
+    program.run("G43 I1 J2 K3\nG38 L1\nG38 L32\nG71 L4\nG71 L11\nG1 X1")
+    offset = [float(program.literal(f"stLast.vToolLength.{name}")) for name in ("dX", "dY", "dZ")]
+    assert offset == [1, 2, 3]
+    assert int(program.literal("stLast.dwFlags")) == 0x80000001
+    assert int(program.literal("stLast.wSmoothAxes")) == 0b10000001000
+    program.run("G43\nG38 L5\nG39 L5\nG71 L7\nG70 L7\nG1 X1")
+    assert [float(program.literal(f"stLast.vToolLength.{name}")) for name in ("dX", "dZ")] == [0, 0]
+    assert (program.literal("stLast.dwFlags"), program.literal("stLast.wSmoothAxes")) == ("0", "0")
+
+
+def test_a_jump_in_a_subprogram_stays_there(program: Interpreter) -> None:
+    """The block number of the caller is no target; the error names the file of the subprogram."""
+    found = program.run(
+        {
+            "main.cnc": "N5 G1 X1\nN6 Lost{}\nN7 G1 X2",
+            "lost.cnc": "SUBPROGRAM Lost{}\nG1 Y1\nG20 L7 K1\nEND_SUBPROGRAM",
+        }
+    )
+    assert found.interpreter == "SMC_DEC_JUMP_TO_UNKNOWN_LINE"
+    assert found.messages[1] == "lost.cnc, line 3, column 5: L7: makes no sense here"
+    assert found.plane == [(1, 0), (1, 1)]
