@@ -112,15 +112,18 @@ def numbers(variables: tuple[str, ...]) -> st.SearchStrategy[Tree]:
     return st.recursive(
         leaves,
         lambda inner: st.one_of(
-            st.tuples(st.sampled_from(["MOD", "*", "/", "+", "-"]), st.tuples(inner, inner)).map(
-                lambda pair: Tree(*pair)
-            ),
+            *[
+                st.tuples(st.sampled_from(["MOD", "*", "/", "+", "-"]), st.tuples(inner, inner)).map(
+                    lambda pair: Tree(*pair)
+                )
+            ]
+            * 4,  # more often than functions: priorities are between them
             st.tuples(st.sampled_from(["negative", *FUNCTIONS]), st.tuples(inner)).map(
                 lambda pair: Tree(*pair)
             ),
             st.tuples(st.sampled_from([*PAIRS]), st.tuples(inner, inner)).map(lambda pair: Tree(*pair)),
         ),
-        max_leaves=6,
+        max_leaves=10,
     )
 
 
