@@ -269,3 +269,28 @@ def test_additional_axes_limit_what_is_merged() -> None:
 def test_inputs_that_are_none(inputs: str) -> None:
     block = Block("SMC_SmoothMerge", inputs)
     assert through(lines(np.eye(3)), block, cycles=5, pi={"dB": -1.0}).error == 10021
+
+
+@pytest.mark.parametrize("capacity", [5, 8])
+def test_a_b_spline_needs_no_large_buffer(capacity: int) -> None:
+    """It keeps the lines that a polynomial depends on itself: any buffer gives the same."""
+    objects = lines(np.array([[n, math.sin(n), math.cos(n)] for n in range(24)]), space=True, **FLAG)
+    large = through(objects, B_SPLINE)
+    small = through(objects, B_SPLINE, capacity=capacity, gives=1, takes=1, cycles=200)
+    assert len(large.objects) == 19
+    assert small.literals == large.literals
+
+
+@pytest.mark.parametrize("capacity", [6, 12])
+def test_a_small_buffer_merges_less_but_keeps_the_tolerance(capacity: int) -> None:
+    """How far SMC_SmoothMerge looks ahead is said by its input; the path stays one path."""
+    angles = np.linspace(0, math.pi / 2, 23)
+    given = np.array([[50 * math.cos(a), 50 * math.sin(a), 0.0] for a in angles])
+    block = Block("SMC_SmoothMerge", "dTolerance := 0.05")
+    found = through(lines(given), block, capacity=capacity, gives=1, takes=1, cycles=300).objects
+    assert 3 <= len(found) < 22
+    assert gaps(found) < 1e-9
+    for first, second in pairwise(found):
+        assert turn(first, second) < 0.01
+    samples = np.array([geo.curve(u) for geo in found for u in np.linspace(0, 1, 60)])
+    assert max(distance_from_lines(place, given) for place in samples) <= 0.05
