@@ -45,13 +45,11 @@ async def cnc_code(
 
 
 @router.get("/blocks", response_model=CncBlocks)
-async def cnc_blocks(project_id: str, who: Viewer, store: StoreDep) -> CncBlocks:
+async def cnc_blocks(project_id: str, who: Viewer, store: StoreDep, language: LanguageDep) -> CncBlocks:
     """The blocks of path preprocessing that the library SM3_CNC offers (CNCS-08, CNCS-09)."""
     await run_in_threadpool(store.project, project_id)
     blocks = await run_in_threadpool(path_blocks)
-    return CncBlocks(
-        blocks=[CncBlock.model_validate(block, from_attributes=True) for block in blocks.values()]
-    )
+    return CncBlocks(blocks=[CncBlock.of(block).in_language(language) for block in blocks.values()])
 
 
 async def _asked(

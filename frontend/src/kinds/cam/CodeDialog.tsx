@@ -1,13 +1,8 @@
-import { useEffect, useState } from 'react';
-import { Copy } from 'lucide-react';
+import { useCallback } from 'react';
 import { api } from '@/api/client';
+import { GeneratedCodeDialog } from '@/editors/GeneratedCodeDialog';
 import { useText } from '@/i18n';
-import { Button } from '@/ui/Button';
-import { Dialog } from '@/ui/Dialog';
-import { Loading } from '@/ui/Empty';
-import { explain } from '@/ui/notices';
 import type { CamTable } from './camTable';
-import styles from './Cam.module.css';
 
 interface CodeDialogProps {
   projectId: string;
@@ -19,44 +14,12 @@ interface CodeDialogProps {
 /** The declarations that a cam is compiled into (CAM-83, CAM-90). */
 export function CodeDialog({ projectId, name, cam, close }: CodeDialogProps) {
   const t = useText();
-  const [text, setText] = useState<string | null>(null);
-  const [fault, setFault] = useState<string | null>(null);
-  useEffect(() => {
-    api
-      .post('/api/v1/projects/{project_id}/cams/code', {
-        params: { path: { project_id: projectId } },
-        body: { cam, name },
-      })
-      .then((answer) => setText(answer.text))
-      .catch((error: unknown) => setFault(explain(error).text ?? explain(error).title));
+  const ask = useCallback(async () => {
+    const { text } = await api.post('/api/v1/projects/{project_id}/cams/code', {
+      params: { path: { project_id: projectId } },
+      body: { cam, name },
+    });
+    return text;
   }, [projectId, cam, name]);
-  return (
-    <Dialog
-      title={t('cam.code')}
-      width={760}
-      onClose={close}
-      footer={
-        <>
-          {text !== null && (
-            <Button icon={Copy} onClick={() => void navigator.clipboard.writeText(text)}>
-              {t('command.copy')}
-            </Button>
-          )}
-          <Button onClick={close}>{t('action.close')}</Button>
-        </>
-      }
-    >
-      {fault !== null ? (
-        <p className={styles.refused} role="alert">
-          {fault}
-        </p>
-      ) : text === null ? (
-        <Loading />
-      ) : (
-        <pre className={`${styles.code} code`} tabIndex={0}>
-          {text}
-        </pre>
-      )}
-    </Dialog>
-  );
+  return <GeneratedCodeDialog title={t('cam.code')} ask={ask} close={close} />;
 }

@@ -11,6 +11,7 @@ export const CNC_ACTS = [
   { id: 'cnc.export', group: 2, reads: true },
   { id: 'cnc.suppress', group: 3 },
   { id: 'cnc.variables', group: 3 },
+  { id: 'cnc.info', group: 3, reads: true },
   { id: 'cnc.properties', group: 3 },
 ] as const satisfies readonly { id: string; group: number; reads?: true }[];
 

@@ -13,6 +13,7 @@ import type { CncDocument } from './cncDocument';
 import { ArrayDialog, MoveDialog, RotateDialog, StretchDialog } from './dialogs';
 import type { LinesEdit } from './edits';
 import { ImportDialog } from './ImportDialog';
+import { InfoDialog } from './InfoDialog';
 import { arrayedProgram } from './operations/array';
 import { Refused } from './operations/refusal';
 import { renumbered } from './operations/renumber';
@@ -83,6 +84,12 @@ const RUN: Readonly<Record<CncActId, (scene: CncScene) => Promise<void> | void>>
     void openDialog((close) => (
       <VariablesDialog projectId={projectId} objectId={objectId} data={data} lines={program.lines()} close={close} />
     )),
+  'cnc.info': ({ projectId, objectId, name, data, program }) => {
+    const shown = { ...data, implementation: program.model.getValue() };
+    void openDialog((close) => (
+      <InfoDialog projectId={projectId} objectId={objectId} name={name} program={shown} close={close} />
+    ));
+  },
   'cnc.properties': ({ projectId, objectId, name }) =>
     void openDialog((close) => (
       <PropertiesDialog projectId={projectId} objectId={objectId} name={name} close={close} />

@@ -1,8 +1,10 @@
 import { ArrowDown, ArrowUp } from 'lucide-react';
 import type { KeyboardEvent } from 'react';
 import { ofKind } from '@/api/objects';
+import type { DataOfKind } from '@/api/types';
 import { useDraft } from '@/editors/form/useDraft';
 import { FormPage, Section } from '@/editors/form/FormPage';
+import { NumberField } from '@/editors/form/NumberField';
 import styles from '@/editors/form/Form.module.css';
 import { useText } from '@/i18n';
 import type { EditorProps } from '@/project/editorProps';
@@ -10,30 +12,74 @@ import { kindTitle, objectIcon } from '@/project/kinds';
 import { IconButton } from '@/ui/Button';
 import { Grid, type GridColumn } from '@/ui/grid/Grid';
 import { useGridSelection } from '@/ui/grid/useGridSelection';
+import { Tabs } from '@/ui/Tabs';
 import own from './CncSettings.module.css';
 import { movedColumn, toggledColumns, type TableColumns } from './columns';
+import { PreprocessorTab } from './PreprocessorTab';
 
 const SettingsIcon = objectIcon('cnc_settings');
-const canStore = () => true;
+const isTime = (value: number) => Number.isInteger(value) && value >= 1 && value <= 1_000_000;
+const canStore = (settings: DataOfKind['cnc_settings']) => isTime(settings.interpolation_time_us);
 
-/** Settings of all CNC programs of an application: which columns their tables have, in which order (CNCS-11). */
+/** Settings of all CNC programs of an application: path preprocessing, interpolation, columns of tables (CNCS-02). */
 export default function CncSettingsEditor({ panelId, projectId, objectId }: EditorProps) {
   const t = useText();
   const draft = useDraft(panelId, projectId, objectId, ofKind('cnc_settings'), canStore);
   return (
-    <FormPage draft={draft}>
+    <FormPage draft={draft} wide>
       {(settings) => (
         <>
           <h1 className={styles.title}>
             <SettingsIcon size={20} />
             {kindTitle('cnc_settings')}
           </h1>
-          <ColumnList
-            columns={settings.columns}
-            readOnly={draft.readOnly}
-            onColumns={(columns) => draft.change({ ...settings, columns })}
+          <Tabs
+            pages={[
+              {
+                id: 'preprocessor',
+                title: t('cncSettings.preprocessor'),
+                content: (
+                  <PreprocessorTab
+                    projectId={projectId}
+                    chain={settings.preprocessing}
+                    readOnly={draft.readOnly}
+                    onChain={(preprocessing) => draft.change({ ...settings, preprocessing })}
+                  />
+                ),
+              },
+              {
+                id: 'interpolation',
+                title: t('cncSettings.interpolation'),
+                content: (
+                  <>
+                    <NumberField
+                      label={t('cncSettings.interpolationTime')}
+                      unit="µs"
+                      value={settings.interpolation_time_us}
+                      error={isTime(settings.interpolation_time_us) ? null : t('cncSettings.timeRange')}
+                      disabled={draft.readOnly !== null}
+                      onValue={(interpolation_time_us) => draft.change({ ...settings, interpolation_time_us })}
+                    />
+                    <p className={own.note}>{t('cncSettings.interpolationNote')}</p>
+                  </>
+                ),
+              },
+              {
+                id: 'table',
+                title: t('cncSettings.table'),
+                content: (
+                  <>
+                    <ColumnList
+                      columns={settings.columns}
+                      readOnly={draft.readOnly}
+                      onColumns={(columns) => draft.change({ ...settings, columns })}
+                    />
+                    <p className={own.note}>{t('cncSettings.type')}</p>
+                  </>
+                ),
+              },
+            ]}
           />
-          <p className={own.note}>{t('cncSettings.type')}</p>
         </>
       )}
     </FormPage>

@@ -41,8 +41,8 @@ export function useColumns(projectId: string, objectId: string): readonly Column
   return useMemo(() => data?.data.columns.filter(({ visible }) => visible).map(({ name }) => name) ?? USUAL, [data]);
 }
 
-/** The columns with one of them at another place; null where it cannot go there. */
-export function movedColumn(columns: TableColumns, from: number, to: number): TableColumns | null {
+/** A list, such as that of the columns, with one of its rows at another place; null where it cannot go there. */
+export function movedColumn<Row>(columns: readonly Row[], from: number, to: number): Row[] | null {
   if (from < 0 || from >= columns.length || to < 0 || to >= columns.length || from === to) return null;
   const next = [...columns];
   next.splice(to, 0, ...next.splice(from, 1));
