@@ -77,7 +77,7 @@ export function CameraPanel({ run }: { run: (act: CameraAct) => void }) {
                 key={act}
                 variant="quiet"
                 className={styles.side}
-                title={t(`cnc.camera.${act}`)}
+                aria-label={t(`cnc.camera.${act}`)}
                 onClick={() => run(act)}
               >
                 {axis}

@@ -13,7 +13,7 @@ import type { ViserWindow } from '../../scene/viserWindow';
 import type { CncDocument } from '../cncDocument';
 import type { CncProgramData } from '../properties';
 import { useProgramVersion } from '../useProgramVersion';
-import { runCamera, takeMouse, type CameraAct } from './camera';
+import { runCamera, takePage, type CameraAct } from './camera';
 import { CameraPanel } from './CameraPanel';
 import { canMoveEnd, canMoveTangents, PathDrag } from './editing';
 import type { Moment } from './motion';
@@ -133,7 +133,7 @@ export function PathPane(props: PathPaneProps) {
             shown={visible}
             testId="path-view"
             onDrawn={(drawn) => {
-              takeMouse(drawn);
+              takePage(drawn);
               setWindow(drawn);
             }}
           />

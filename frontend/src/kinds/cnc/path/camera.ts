@@ -1,6 +1,6 @@
 /** The camera of a path view (CNC-56, CNC-60 to CNC-62): moved in the page of the view, without the server. */
 import type { ViserWindow } from '../../scene/viserWindow';
-import type { Eye, Frame, Vector } from './projection';
+import { dot, plus, type Eye, type Frame, type Vector } from './projection';
 
 interface Matrix {
   readonly elements: readonly number[];
@@ -66,8 +66,19 @@ function controlsOf(view: ViserWindow): Controls | null {
   return (view.__viserMutable?.cameraControl ?? null) as Controls | null;
 }
 
+/** viser's own panel and notices: the workbench around the page has what is needed. */
+const NOT_SHOWN = '[data-floating-window], .mantine-Notifications-root { display: none !important; }';
+
+/** Leaves of the page of a view the picture alone. */
+export function takePage(view: ViserWindow): void {
+  const style = view.document.createElement('style');
+  style.textContent = NOT_SHOWN;
+  view.document.head.append(style);
+  takeMouse(view);
+}
+
 /** Left button moves, right button turns, the wheel zooms at the pointer. */
-export function takeMouse(view: ViserWindow): void {
+function takeMouse(view: ViserWindow): void {
   const controls = controlsOf(view);
   if (controls === null) return;
   Object.assign(controls.mouseButtons, { left: TRUCK, right: ROTATE, middle: TRUCK, wheel: DOLLY });
@@ -75,22 +86,44 @@ export function takeMouse(view: ViserWindow): void {
   controls.dollyToCursor = true;
 }
 
+/** How the frame of the picture lies in that of three.js: columns of a turn. */
+type Turn = readonly [Vector, Vector, Vector];
+
+function turnOf(view: ViserWindow): Turn {
+  const root = view.__viserSceneTree?.getState()[''] as { wxyz?: readonly number[] } | undefined;
+  const [w, x, y, z] = (root?.wxyz ?? [1, 0, 0, 0]) as [number, number, number, number];
+  return [
+    [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
+    [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
+    [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)],
+  ];
+}
+
+function turned([a, b, c]: Turn, [x, y, z]: Vector): Vector {
+  return [a[0] * x + b[0] * y + c[0] * z, a[1] * x + b[1] * y + c[1] * z, a[2] * x + b[2] * y + c[2] * z];
+}
+
 /** Where the camera is; null while the page of the view is not ready. */
 export function eyeOf(view: ViserWindow): Eye | null {
   const camera = controlsOf(view)?.camera;
   if (camera === undefined || view.innerWidth === 0 || view.innerHeight === 0) return null;
+  const turn = turnOf(view);
+  const [world, inverse] = [camera.matrixWorld.elements, camera.matrixWorldInverse.elements];
+  const column = (matrix: readonly number[], n: number) => matrix.slice(4 * n, 4 * n + 3) as unknown as Vector;
   return {
-    world: camera.matrixWorld.elements,
-    inverse: camera.matrixWorldInverse.elements,
-    projection: camera.projectionMatrix.elements,
+    // Into the frame of the picture, and out of it: its turn is undone by the products with its columns.
+    world: [0, 1, 2, 3].flatMap((n) => [...turn.map((axis) => dot(axis, column(world, n))), n === 3 ? 1 : 0]),
+    inverse: [
+      ...turn.flatMap(([x, y, z]) => [
+        ...[0, 1, 2].map((row) => inverse[row]! * x + inverse[row + 4]! * y + inverse[row + 8]! * z),
+        0,
+      ]),
+      ...inverse.slice(12, 16),
+    ],
+    projection: [...camera.projectionMatrix.elements],
     width: view.innerWidth,
     height: view.innerHeight,
   };
-}
-
-/** An eye that stays as it is, whatever the camera does. */
-export function still(eye: Eye): Eye {
-  return { ...eye, world: [...eye.world], inverse: [...eye.inverse], projection: [...eye.projection] };
 }
 
 export function sameEye(a: Eye | null, b: Eye | null): boolean {
@@ -132,17 +165,17 @@ export function runCamera(view: ViserWindow, act: CameraAct, frame: Frame, box: 
     down: () => controls.truck(0, part, true),
     left: () => controls.truck(-part, 0, true),
     right: () => controls.truck(part, 0, true),
-    alongZ: () => lookFrom(controls, [0, -1e-4, 1], frame, box),
-    alongX: () => lookFrom(controls, [-1, 0, 0], frame, box),
-    alongY: () => lookFrom(controls, [0, -1, 0], frame, box),
+    alongZ: () => lookFrom(controls, turnOf(view), [0, -1e-4, 1], frame, box),
+    alongX: () => lookFrom(controls, turnOf(view), [-1, 0, 0], frame, box),
+    alongY: () => lookFrom(controls, turnOf(view), [0, -1, 0], frame, box),
   };
   acts[act]();
 }
 
 /** Looks at the whole path from a side, Z up. */
-function lookFrom(controls: Controls, side: Vector, { centre, scale }: Frame, { low, high }: Box): void {
+function lookFrom(controls: Controls, turn: Turn, side: Vector, { centre, scale }: Frame, { low, high }: Box): void {
   const { camera } = controls;
-  camera.up.set(0, 1, 0);
+  camera.up.set(...turn[2]);
   controls.updateCameraUp();
   const middle = [0, 1, 2].map((n) => ((low[n]! + high[n]!) / 2 - centre[n]!) * scale);
   const half = [0, 1, 2].map((n) => Math.max(((high[n]! - low[n]!) / 2) * scale, 1e-3));
@@ -150,8 +183,9 @@ function lookFrom(controls: Controls, side: Vector, { centre, scale }: Frame, { 
   const [wide, tall] = [deep === 0 ? 1 : 0, deep === 2 ? 1 : 2];
   const slope = Math.tan((camera.fov * Math.PI) / 360);
   const distance = Math.max(half[tall]!, half[wide]! / camera.aspect) * (MARGIN / slope) + half[deep]!;
-  const at = (n: number) => middle[n]! + side[n]! * Math.max(distance, 10 * LEAST_DISTANCE);
-  controls.setLookAt(at(0), at(2), -at(1), middle[0]!, middle[2]!, -middle[1]!, false);
+  const to = middle as unknown as Vector;
+  const from = plus(to, side, Math.max(distance, 10 * LEAST_DISTANCE));
+  controls.setLookAt(...turned(turn, from), ...turned(turn, to), false);
 }
 
 /** Turns the picture around the direction in which the camera looks. */

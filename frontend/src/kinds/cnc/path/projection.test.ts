@@ -1,11 +1,11 @@
 import { describe, expect, it } from 'vitest';
 import { facingPlane, onPlane, pixelSize, rayThrough, seenAt, type Eye, type Frame, type Vector } from './projection';
 
-/** A camera of three.js above the plane X/Y of the picture, Y of it up on the screen, 100 x 50 pixels, 90 degrees. */
+/** A camera above the plane X/Y, Y of it up on the screen, 100 x 50 pixels, 90 degrees. */
 function above(height: number): Eye {
-  // Columns: right, up and back of the camera in the frame of three.js, and its place.
-  const world = [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, height, 0, 1];
-  const inverse = [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, -height, 1];
+  // Columns: right, up and back of the camera, and its place.
+  const world = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, height, 1];
+  const inverse = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -height, 1];
   const projection = [0.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, 0, 0, -0.1, 0];
   return { world, inverse, projection, width: 100, height: 50 };
 }

@@ -1,8 +1,8 @@
 /**
  * Where a place of the path is on the screen, and which ray goes through a point of the screen.
  *
- * Three frames: the path's own (program units), that of the picture (`Frame`, Z up, as the server draws), and that of
- * three.js (Y up) in which the camera is.
+ * Two frames: the path's own (program units), and that of the picture, in which the server draws (`Frame`) and the
+ * camera is (`Eye`).
  */
 
 export type Vector = readonly [number, number, number];
@@ -13,7 +13,7 @@ export interface Frame {
   readonly scale: number;
 }
 
-/** A camera of three.js: matrices by columns. */
+/** A camera in the frame of the picture: matrices by columns, as three.js has them. */
 export interface Eye {
   readonly world: readonly number[];
   readonly inverse: readonly number[];
@@ -44,8 +44,9 @@ export function size(a: Vector): number {
   return Math.hypot(...a);
 }
 
-function toThree({ centre, scale }: Frame, [x, y, z]: Vector): Vector {
-  return [(x - centre[0]) * scale, (z - centre[2]) * scale, -(y - centre[1]) * scale];
+function drawnAt({ centre, scale }: Frame, place: Vector): Vector {
+  const [x, y, z] = plus(place, centre, -1);
+  return [x * scale, y * scale, z * scale];
 }
 
 /** Rows of a matrix that is stored by columns, times a place. */
@@ -56,7 +57,7 @@ function times(matrix: readonly number[], [x, y, z]: Vector, w: number): [number
 
 /** The place in pixels from the upper left corner; null for one behind the camera. */
 export function seenAt(eye: Eye, frame: Frame, place: Vector): Seen | null {
-  const [x, y, z] = times(eye.inverse, toThree(frame, place), 1);
+  const [x, y, z] = times(eye.inverse, drawnAt(frame, place), 1);
   if (z >= 0) return null;
   const [u, v, , w] = times(eye.projection, [x, y, z], 1);
   return { x: ((u / w + 1) / 2) * eye.width, y: ((1 - v / w) / 2) * eye.height };
@@ -71,8 +72,8 @@ export function rayThrough(eye: Eye, frame: Frame, { x, y }: Seen): Ray {
   const [ox, oy, oz] = times(eye.world, [0, 0, 0], 1);
   const { centre, scale } = frame;
   return {
-    origin: [ox / scale + centre[0], -oz / scale + centre[1], oy / scale + centre[2]],
-    ahead: [ax / length, -az / length, ay / length],
+    origin: plus(centre, [ox, oy, oz], 1 / scale),
+    ahead: [ax / length, ay / length, az / length],
   };
 }
 
@@ -83,7 +84,7 @@ export function pixelAngle({ projection, height }: Eye): number {
 
 /** How long a pixel is at a place [path units]. */
 export function pixelSize(eye: Eye, frame: Frame, place: Vector): number {
-  const [, , z] = times(eye.inverse, toThree(frame, place), 1);
+  const [, , z] = times(eye.inverse, drawnAt(frame, place), 1);
   return (Math.abs(z) * pixelAngle(eye)) / frame.scale;
 }
 

@@ -1,6 +1,6 @@
 import { useEffect, useState } from 'react';
 import type { ViserWindow } from '../../scene/viserWindow';
-import { eyeOf, sameEye, still } from './camera';
+import { eyeOf, sameEye } from './camera';
 import type { Eye } from './projection';
 
 /** Where the camera of a view is, followed picture by picture; null while it is not ready or not seen. */
@@ -12,7 +12,7 @@ export function useEye(view: ViserWindow | null, visible: boolean): Eye | null {
     let request = 0;
     const look = () => {
       const now = eyeOf(view);
-      if (!sameEye(now, shown)) setEye((shown = now && still(now)));
+      if (!sameEye(now, shown)) setEye((shown = now));
       request = requestAnimationFrame(look);
     };
     look();
