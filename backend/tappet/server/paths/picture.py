@@ -127,7 +127,7 @@ class Picture:
         parts = [np.stack([row[:-1], row[1:]], axis=1) for row in rows if len(row) > 1]
         lines = self.frame.of(np.concatenate(parts)) if parts else _NO_LINES
         with self._lock:
-            self._lines("chosen", lines, np.broadcast_to(np.array(RED, np.uint8), lines.shape), thickness=3.5)
+            self._lines("chosen", lines, np.broadcast_to(np.array(RED, np.uint8), lines.shape), thickness=5.0)
 
     def _draw(self, name: str) -> None:
         layer = self._layers.get(name)
@@ -146,7 +146,7 @@ class Picture:
             return
         lines = np.stack([self.frame.of(path.points[start]), self.frame.of(path.points[end])], axis=1)
         colours = np.repeat(layer.colours[piece][:, None], 2, axis=1)
-        self._lines(name, lines, colours, thickness=1.0 if name == "original" else 1.75)
+        self._lines(name, lines, colours, thickness=1.5 if name == "original" else 3.0)
 
     def _lines(
         self, name: str, lines: npt.NDArray[np.float32], colours: npt.NDArray[np.uint8], *, thickness: float
@@ -174,7 +174,7 @@ class Picture:
         lines = np.stack([np.broadcast_to(origin, (3, 3)), ends], axis=1).astype(np.float32)
         colours = np.repeat(np.array(AXES, np.uint8)[:, None], 2, axis=1)
         with self._lock:
-            self._lines("axes", lines, colours, thickness=2.5)
+            self._lines("axes", lines, colours, thickness=3.0)
 
     def _camera(self) -> Camera:
         """Where the newest browser looks from, in path units; from above while there is none."""

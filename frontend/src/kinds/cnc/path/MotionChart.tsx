@@ -49,7 +49,12 @@ export function MotionChart({ samples, time, onTime }: MotionChartProps) {
         axes: [
           axis(t('cnc.motion.time'), 'x', { size: 26 }),
           axis(t('cnc.motion.velocity'), 'v', { stroke: colour('--curve-1') }),
-          axis(t('cnc.motion.acceleration'), 'a', { side: 1, grid: { show: false }, stroke: colour('--curve-2') }),
+          axis(t('cnc.motion.acceleration'), 'a', {
+            side: 1,
+            space: 24,
+            grid: { show: false },
+            stroke: colour('--curve-2'),
+          }),
         ],
         series: [
           {},

@@ -90,6 +90,7 @@ export function MotionPanel({ view, drawn, onMoment }: MotionPanelProps) {
         />
         <Select
           compact
+          className={styles.speed}
           label={t('cnc.motion.speed')}
           value={speed}
           choices={SPEEDS.map((value) => ({ value, text: `${value} ×` }))}

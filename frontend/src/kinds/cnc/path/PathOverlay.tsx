@@ -52,6 +52,8 @@ export function PathOverlay(props: PathOverlayProps) {
       if (event.button !== 0) return;
       event.currentTarget.setPointerCapture(event.pointerId);
       setHeld(name);
+      // The keyboard comes here: Del means this element, and the text shows its line as chosen elsewhere.
+      event.currentTarget.closest('section')?.focus();
       onChoose(grip.line);
       onGrip(grip);
     },

@@ -13,7 +13,7 @@ import type { ViserWindow } from '../../scene/viserWindow';
 import type { CncDocument } from '../cncDocument';
 import type { CncProgramData } from '../properties';
 import { useProgramVersion } from '../useProgramVersion';
-import { runCamera, takePage, type CameraAct } from './camera';
+import { runCamera, takePage, type Box, type CameraAct } from './camera';
 import { CameraPanel } from './CameraPanel';
 import { canMoveEnd, canMoveTangents, PathDrag } from './editing';
 import type { Moment } from './motion';
@@ -21,7 +21,7 @@ import { MotionPanel } from './MotionPanel';
 import styles from './Path.module.css';
 import { PathLegend } from './PathLegend';
 import { PathOverlay } from './PathOverlay';
-import type { Colouring } from './pathView';
+import type { Colouring, PathSummary } from './pathView';
 import type { Frame, Seen, Vector } from './projection';
 import { RealTool } from './RealTool';
 import { useEye } from './useEye';
@@ -84,15 +84,31 @@ export function PathPane(props: PathPaneProps) {
   }, [program, line, locked]);
   const pointed = usePointing(window, view, frame, onLine, remove);
   const camera = (act: CameraAct) => {
-    if (window !== null && frame !== null && summary !== null)
-      runCamera(window, act, frame, { low: summary.low as unknown as Vector, high: summary.high as unknown as Vector });
+    if (window !== null && frame !== null && summary !== null) runCamera(window, act, frame, boxOf(summary));
   };
+  const fitted = useRef<ViserWindow | null>(null);
+  useEffect(() => {
+    // The first picture shows the whole path; later the camera is the user's.
+    if (eye === null || window === null || frame === null || summary === null || fitted.current === window) return;
+    fitted.current = window;
+    runCamera(window, 'alongZ', frame, boxOf(summary));
+  }, [eye, window, frame, summary]);
   const onReal = useCallback((tool: Vector | null, trace: readonly Vector[]) => setReal({ tool, trace }), []);
   const onDrag = (at: Seen) => eye !== null && frame !== null && drag.current?.to(at, eye, frame);
   const free = !locked && !preprocessed;
   const place = pointed !== null && pointed.line === line ? pointed.place : (chosen.at(-1)?.end ?? null);
   return (
-    <section className={styles.pane} aria-label={t('cnc.path')} data-busy={busy || undefined} data-testid="path-pane">
+    <section
+      className={styles.pane}
+      aria-label={t('cnc.path')}
+      data-busy={busy || undefined}
+      data-testid="path-pane"
+      tabIndex={-1}
+      onKeyDown={(event) => {
+        // Elsewhere the key belongs to a field.
+        if (event.key === 'Delete' && event.target === event.currentTarget) remove();
+      }}
+    >
       <div className={styles.bar}>
         <Select
           compact
@@ -124,62 +140,68 @@ export function PathPane(props: PathPaneProps) {
               (summary && t('cnc.path.facts', { count: summary.objects, length: summary.length.toFixed(2) })))}
         </span>
       </div>
-      <div className={styles.stage}>
-        {path !== null && (
-          <ViewFrame
-            key={path}
-            src={path}
-            title={t('cnc.path')}
-            shown={visible}
-            testId="path-view"
-            onDrawn={(drawn) => {
-              takePage(drawn);
-              setWindow(drawn);
-            }}
-          />
-        )}
-        {eye !== null && frame !== null && summary !== null && (
-          <PathOverlay
-            eye={eye}
-            frame={frame}
-            summary={summary}
-            chosen={chosen}
-            line={line}
-            movable={(one) => free && canMoveEnd(program, one)}
-            tangents={(one) => free && canMoveTangents(program, one)}
-            tool={moment?.place ?? real.tool}
-            trace={real.trace}
-            onChoose={onLine}
-            onGrip={(grip) => (drag.current = new PathDrag(program, grip))}
-            onDrag={onDrag}
-            onDrop={() => {
-              drag.current?.drop();
-              drag.current = null;
-            }}
-          />
-        )}
-        {window !== null && <CameraPanel run={camera} />}
-        {window !== null && session === null && place !== null && (
-          <div className={styles.status} data-testid="path-position">
-            {['X', 'Y', 'Z'].map((axis, at) => `${axis} ${place[at]!.toFixed(3)}`).join('  ')}
-          </div>
-        )}
-        {window !== null && summary !== null && <PathLegend colouring={colouring} legend={summary.legend} />}
-        {error !== null && (
-          <div className={styles.cover}>
-            <Failed error={error} retry={() => view.retry()} />
-          </div>
-        )}
-        {error === null && window === null && (
-          <div className={styles.cover}>
-            <Loading />
-          </div>
-        )}
+      <div className={styles.body}>
+        <div className={styles.stage}>
+          {path !== null && (
+            <ViewFrame
+              key={path}
+              src={path}
+              title={t('cnc.path')}
+              shown={visible}
+              testId="path-view"
+              onDrawn={(drawn) => {
+                takePage(drawn);
+                setWindow(drawn);
+              }}
+            />
+          )}
+          {eye !== null && frame !== null && summary !== null && (
+            <PathOverlay
+              eye={eye}
+              frame={frame}
+              summary={summary}
+              chosen={chosen}
+              line={line}
+              movable={(one) => free && canMoveEnd(program, one)}
+              tangents={(one) => free && canMoveTangents(program, one)}
+              tool={moment?.place ?? real.tool}
+              trace={real.trace}
+              onChoose={onLine}
+              onGrip={(grip) => (drag.current = new PathDrag(program, grip))}
+              onDrag={onDrag}
+              onDrop={() => {
+                drag.current?.drop();
+                drag.current = null;
+              }}
+            />
+          )}
+          {window !== null && <CameraPanel run={camera} />}
+          {window !== null && session === null && place !== null && (
+            <div className={styles.status} data-testid="path-position">
+              {['X', 'Y', 'Z'].map((axis, at) => `${axis} ${place[at]!.toFixed(3)}`).join('  ')}
+            </div>
+          )}
+          {window !== null && summary !== null && <PathLegend colouring={colouring} legend={summary.legend} />}
+          {error !== null && (
+            <div className={styles.cover}>
+              <Failed error={error} retry={() => view.retry()} />
+            </div>
+          )}
+          {error === null && window === null && (
+            <div className={styles.cover}>
+              <Loading />
+            </div>
+          )}
+        </div>
+        {playing && <MotionPanel view={view} drawn={summary} onMoment={setMoment} />}
       </div>
       {session !== null && <RealTool runtimeId={session.runtimeId} objectId={objectId} onTool={onReal} />}
-      {playing && <MotionPanel view={view} drawn={summary} onMoment={setMoment} />}
     </section>
   );
+}
+
+function boxOf({ low, high }: PathSummary): Box {
+  return { low: low as unknown as Vector, high: high as unknown as Vector };
 }
 
 /** What tells one path from another: text, properties, and the settings of the application. */
