@@ -9,6 +9,7 @@ import subprocess
 from typing import Any
 
 import pytest
+import viser
 from fastapi.testclient import TestClient
 from server_clients import SOCKETS, bare
 
@@ -78,7 +79,7 @@ def test_a_path_is_drawn_chosen_picked_and_moved_along(admin: TestClient, cnc: t
     # EX-01: a second more at each stop, to accelerate and brake at 10 u/s².
     assert samples["duration"] == pytest.approx(1 + 1 + 10 + 1 + 2 * math.pi + 0.5 + 1 + 0.2, abs=3)
 
-    with admin.websocket_connect(SOCKETS + page) as socket:
+    with admin.websocket_connect(SOCKETS + page, subprotocols=[f"viser-v{viser.__version__}"]) as socket:
         assert len(socket.receive_bytes()) > 0
     assert admin.delete(view).status_code == 204
     assert admin.put(f"{view}/line", json={"line": 0}).status_code == 404

@@ -70,8 +70,7 @@ class PathWorker:
 
     @property
     def _path(self) -> SeenPath:
-        if self._seen is None:
-            raise RuntimeError("the view is not open")
+        assert self._seen is not None, "the first order opens the view"
         return self._seen
 
 
