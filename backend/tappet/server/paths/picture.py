@@ -32,6 +32,11 @@ WIDE = 1.3
 RED = (214, 40, 40)
 AXES = ((214, 40, 40), (30, 150, 60), (40, 90, 220))
 CELLS = 20
+_SHARE = np.arange(256) / 255.0
+_LIGHT_OF = np.round(
+    255.0 * np.where(_SHARE <= 0.04045, _SHARE / 12.92, ((_SHARE + 0.055) / 1.055) ** 2.4)
+).astype(np.uint8)
+"""viser takes colours of lines as amounts of light: the inverse of the transfer function of sRGB (IEC 61966-2-1)."""
 _NO_LINES = np.zeros((1, 2, 3), np.float32)
 """viser wants one line at least; this one has no length."""
 
@@ -152,7 +157,7 @@ class Picture:
         self, name: str, lines: npt.NDArray[np.float32], colours: npt.NDArray[np.uint8], *, thickness: float
     ) -> None:
         self._handles[name] = self._server.scene.add_line_segments(
-            f"/{name}", lines, colours, thickness=thickness, thickness_units="screen"
+            f"/{name}", lines, _LIGHT_OF[colours], thickness=thickness, thickness_units="screen"
         )
 
     def _place_grid(self) -> None:

@@ -154,8 +154,8 @@ export function runCamera(view: ViserWindow, act: CameraAct, frame: Frame, box: 
   const acts: Record<CameraAct, () => unknown> = {
     zoomIn: () => controls.dolly(controls.distance * ZOOM, true),
     zoomOut: () => controls.dolly((-controls.distance * ZOOM) / (1 - ZOOM), true),
-    tiltUp: () => controls.rotate(0, STEP, true),
-    tiltDown: () => controls.rotate(0, -STEP, true),
+    tiltUp: () => controls.rotate(0, -STEP, true),
+    tiltDown: () => controls.rotate(0, STEP, true),
     turnLeft: () => controls.rotate(STEP, 0, true),
     turnRight: () => controls.rotate(-STEP, 0, true),
     rollLeft: () => roll(controls, -STEP),
