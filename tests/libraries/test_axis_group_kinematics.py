@@ -1,4 +1,4 @@
-"""Kinematics of axis groups: paths in space against products of matrices, limits of axes, places out of reach."""
+"""Kinematics of axis groups: paths in space against products of matrices, limits, places out of reach."""
 
 from __future__ import annotations
 
@@ -115,7 +115,8 @@ def _angle(first: Numbers, second: Numbers) -> Numbers:
     """Angles between orientations [deg], exact also where they are small."""
     turn = np.swapaxes(first[..., :3, :3], -1, -2) @ second[..., :3, :3]
     apart = turn - np.eye(3)
-    return np.degrees(2 * np.arcsin(np.clip(np.sqrt((apart**2).sum(axis=(-1, -2)) / 8), 0, 1)))
+    angle: Numbers = np.degrees(2 * np.arcsin(np.clip(np.sqrt((apart**2).sum(axis=(-1, -2)) / 8), 0, 1)))
+    return angle
 
 
 @pytest.mark.parametrize("name", _SERIAL)
