@@ -27,6 +27,8 @@ VARIABLES = {"gSMC_MParameters", "MAX_SWITCHES", "c_uiLines", "g_CNCProgManager"
 """And constants, which no type has."""
 LINE_NUMBERS = {"iLine", "iLineNumber", "iActObjectSourceNo"}
 """DINT instead of INT. Spec CNCR-C20."""
+SAYS = {"errorPos", "sErrorProgram", "sErrorText", "sErrorWord"}
+"""Where a program is wrong, and why."""
 BEYOND: dict[str, set[str]] = {
     "SMC_GCODE_TEXT": {"aiNumbers", "asLines", "iLines"},
     "SMC_GEOINFO": {
@@ -34,12 +36,12 @@ BEYOND: dict[str, set[str]] = {
         *("wCubic", "wSmoothAxes", "dwFlags", "iProbe", "pStopped"),
     },
     "SMC_INT_VELMODE": {"SIGMOID_LIMIT", "QUADRATIC", "QUADRATIC_SMOOTH"},
-    "SMC_Interpolator": {"dJerkMax", "bProbe", "bAcknProbe"},
+    "SMC_Interpolator": {"dJerkMax", "bProbe", "bAcknProbe", "iProbe", "piProbePosition"},
     "SMC_Interpolator2Dir": {"dJerkMax"},
     "SMC_NCDecoder": {"fTimeBudget", "sErrorWord"},
-    "SMC_NCInterpreter": {"fTimeBudget"},
+    "SMC_NCInterpreter": {"fTimeBudget", *SAYS},
     "SMC_OUTQUEUE": {"nStored", "nHeld", "nChecked", "nPlans"},
-    "SMC_ReadNCFile2": {"aTokenModifier", "pCustomFunTable"},
+    "SMC_ReadNCFile2": {"aTokenModifier", "pCustomFunTable", *SAYS},
     "SMC_RecomputeABCSlopes": {"dAngleTol"},
     "SMC_SmoothMerge": {"piMaxDifference", "dMinCurvatureRadius", "nFeatureFlag"},
     "SMC_VARTYPE": {"SMC_TYPE_M_PARAMETERS"},
