@@ -300,6 +300,22 @@ def test_turns_of_joints_are_counted_on() -> None:
     assert trace[-1] == pytest.approx((200, 40, 0, 0), abs=1e-7)
 
 
+def test_a_rotary_axis_of_a_kinematics_goes_on_through_its_period() -> None:
+    """From 350 to 20 degrees of a modulo axis it is 30 degrees forwards."""
+    with machine(4, "TRAFO.Kin_Gantry3C") as group:
+        group.start("Disable")
+        group.put("A3", iMovementType=0, fPositionPeriod=360.0)
+        group.start("Enable")
+        group.cycle()
+        group.give("Direct", Position=(0, 0, 0, 350), CoordSystem=0)
+        _trace(group, "Direct")
+        group.cycle(2)
+        group.give("Linear1", Position=(60, 0, 0, 20, 0, 0), CoordSystem=MCS, **DYNAMICS)
+        turned = np.unwrap(_trace(group, "Linear1")[:, 3], period=360.0)
+    assert turned[-1] - turned[0] == pytest.approx(30, abs=1e-9)
+    assert np.all(np.diff(turned) > -1e-12)
+
+
 def test_places_out_of_reach_are_refused() -> None:
     """The end, a point in between and a singular start: an error of the block, and nothing moves."""
     axes, kinematics, _, start, _ = _SERIAL["scara"]

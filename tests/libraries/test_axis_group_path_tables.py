@@ -268,8 +268,8 @@ def _way_of(point: Numbers) -> float:
     return 120 + half + 20 * math.acos(max(-1.0, min(1.0, (y - 20) / 20)))
 
 
-def test_an_axis_of_the_group_cannot_follow_it() -> None:
-    """Ratios that are none, as MC_GearIn says."""
+def test_a_ratio_that_is_none() -> None:
+    """As MC_GearIn says."""
     with machine(3) as group:
         group.start("SyncAxis", RatioDenominator=0, Acceleration=1.0, Deceleration=1.0)
         assert group.outputs("SyncAxis") == {"Error"}
