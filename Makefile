@@ -87,6 +87,7 @@ generate: $(VENV)/.ready frontend/node_modules/.ready
 	$(BIN)/python -m tappet.iec.task_typescript
 	$(BIN)/python -m tappet.iec.textmate
 	$(BIN)/python -m tappet.project.axes.channels > frontend/src/kinds/axis/channels.json
+	$(BIN)/python -m tappet.project.axis_groups.kinematics > frontend/src/kinds/axis_group/kinematics.json
 	$(BIN)/python -m tappet.lang.languages.il.typescript
 	$(BIN)/python tests/iec/iec_texts.py
 	$(BIN)/python tests/lang/il_texts.py

@@ -59,6 +59,7 @@ def test_values_are_those_of_the_catalog(name: str) -> None:
 
 VERSION_2 = {
     *("MC_GroupPower", "MC_ReadAxisGroupInfo", "MC_GroupWaitTime", "MC_GroupJog", "MC_GroupJogVector"),
+    *("MC_GroupReadVelocity", "MC_GroupReadAcceleration", "MC_GroupTransformPosition"),
     *("MC_GroupReadPosition", "MC_GroupReadMotionState", "MC_GroupReadParameter", "MC_GroupWriteParameter"),
     *("MC_GroupReadBoolParameter", "MC_GroupWriteBoolParameter", "MC_GroupReadSWLimits"),
     *("MC_GroupWriteSWLimits", "MC_GroupReadDefaultDynamics", "MC_GroupWriteDefaultDynamics"),

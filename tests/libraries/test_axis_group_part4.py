@@ -26,7 +26,11 @@ BLOCKS = {
     "Second": "MC_MoveLinearAbsolute",
     "Wait": "MC_GroupWaitTime",
     "Position": "MC_GroupReadPosition",
+    "Velocity": "MC_GroupReadVelocity",
+    "Acceleration": "MC_GroupReadAcceleration",
     "MotionState": "MC_GroupReadMotionState",
+    "Transform": "MC_GroupTransformPosition",
+    "Frame": "MC_SetCoordinateTransform",
     "WriteDefault": "MC_GroupWriteDefaultDynamics",
     "ReadDefault": "MC_GroupReadDefaultDynamics",
     "WriteReference": "MC_GroupWriteReferenceDynamics",
@@ -55,12 +59,15 @@ VAR
     Group : AXIS_GROUP_REF_SM3;
     AddX, AddY : MC_AddAxisToGroup;
     Info, InfoAlone : MC_ReadAxisGroupInfo;
+    Kin : TRAFO.Kin_GantryT2;
+    SetKin : MC_SetKinTransform;
 {_INSTANCES}
 END_VAR
 X.BeginCycle();
 Y.BeginCycle();
 AddX(AxisGroup := Group, Axis := X, Execute := TRUE);
 AddY(AxisGroup := Group, Axis := Y, Execute := TRUE);
+SetKin(AxisGroup := Group, KinTransform := Kin);
 Info(AxisGroup := Group, Axis := Y, Enable := TRUE);
 InfoAlone(AxisGroup := Group, Axis := Alone, Enable := TRUE);
 {_CALLS}
@@ -74,7 +81,7 @@ DYNAMICS = {"Velocity": 100.0, "Acceleration": 500.0, "Deceleration": 400.0, "Je
 
 @cache
 def _package() -> CodePackage:
-    libraries = (LibraryReference("SM3_Basic"), LibraryReference("SM3_AxisGroup"))
+    libraries = tuple(map(LibraryReference, ("SM3_Basic", "SM3_AxisGroup", "SM3_Transformation")))
     tasks = [Task("Motion", interval_ns=4_000_000, programs=("Main",))]
     result = build_application(
         [Source("Main", PROGRAM)],
@@ -164,6 +171,62 @@ def test_position_by_its_source(machine: Machine, source: int) -> None:
     machine.plc.run(cycles=1)
     assert machine.word("Position.ErrorID") == VALUES
     assert float(machine.get("Position.Position.a[0]")) == 0.0
+
+
+@pytest.mark.parametrize("source", [0, 1, 2])
+def test_velocities_and_accelerations_by_their_source(machine: Machine, source: int) -> None:
+    """Along (3, 4) / 5 at 100 mm/s; with 500 mm/s² while the speed rises."""
+    for block in ("Velocity", "Acceleration"):
+        machine.put(block, Enable=True, Source=source, CoordSystem=0)
+    machine.to("Move", 300.0, 400.0, **DYNAMICS)
+    machine.after(0.1)
+    accelerations = [float(machine.get(f"Acceleration.Acceleration[{axis}]")) for axis in range(2)]
+    assert accelerations == pytest.approx([300.0, 400.0], rel=1e-6)
+    assert float(machine.get("Acceleration.PathAcceleration")) == pytest.approx(500.0)
+    machine.after(0.5)
+    velocities = [float(machine.get(f"Velocity.Velocity[{axis}]")) for axis in range(2)]
+    assert velocities == pytest.approx([60.0, 80.0], rel=1e-6)
+    assert float(machine.get("Velocity.PathVelocity")) == pytest.approx(100.0)
+
+
+ANGLE = math.radians(30.0)
+PLACE = (70.0, -20.0)
+PRODUCT = (
+    10.0 + PLACE[0] * math.cos(ANGLE) - PLACE[1] * math.sin(ANGLE),
+    5.0 + PLACE[0] * math.sin(ANGLE) + PLACE[1] * math.cos(ANGLE),
+)
+"""PLACE in a product that lies at (10, 5), turned by 30 degrees, in the machine."""
+
+
+@pytest.mark.parametrize(
+    ("kinematics", "systems", "expected"),
+    [
+        (False, (3, 1), PRODUCT),
+        (False, (3, 0), PRODUCT),
+        (False, (0, 1), PLACE),
+        (True, (3, 1), PRODUCT),
+        (True, (1, 0), (PLACE[0] - PLACE[1], PLACE[0] + PLACE[1])),
+        (True, (3, 0), (PRODUCT[0] - PRODUCT[1], PRODUCT[0] + PRODUCT[1])),
+        (True, (0, 1), ((PLACE[0] + PLACE[1]) / 2, (PLACE[1] - PLACE[0]) / 2)),
+    ],
+)
+def test_a_position_in_another_coordinate_system(
+    machine: Machine, kinematics: bool, systems: tuple[int, int], expected: tuple[float, float]
+) -> None:
+    """Without a kinematics, and with that of a T portal: the axes are X - Y and X + Y."""
+    machine.start("Frame", **{"CoordTransform.X": 10.0, "CoordTransform.Y": 5.0, "CoordTransform.A": 30.0})
+    if kinematics:
+        machine.start("SetKin")
+        assert machine.word("SetKin.ErrorID") == "SMC_NO_ERROR"
+    places = {f"InputPosition.a[{axis}]": PLACE[axis] for axis in range(2)}
+    machine.put("Transform", Enable=True, InputCoordSystem=systems[0], OutputCoordSystem=systems[1], **places)
+    machine.plc.run(cycles=1)
+    assert machine.word("Transform.ErrorID") == "SMC_NO_ERROR"
+    found = [float(machine.get(f"Transform.OutputPosition.a[{axis}]")) for axis in range(2)]
+    assert found == pytest.approx(expected)
+    machine.put("Transform", InputCoordSystem=9)
+    machine.plc.run(cycles=1)
+    assert machine.word("Transform.ErrorID") == VALUES
 
 
 def test_the_motion_state_follows_the_profile(machine: Machine) -> None:

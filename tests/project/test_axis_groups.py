@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -9,7 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.project.axis_projects import application_id, build, errors, only, with_axes
 
+from tappet.libraries import load
+from tappet.libraries.catalog import items
 from tappet.project import edit
+from tappet.project.axis_groups.kinematics import FORMS, table
 from tappet.project.axis_groups.settings import AxisGroupSettings, PathDynamics
 from tappet.project.errors import InvalidDataError
 from tappet.project.folder import codec
@@ -17,6 +22,7 @@ from tappet.project.model import Project
 from tappet.project.sources import application_sources, libraries, tasks
 from tappet.runtime.local import LocalRuntime
 
+KINEMATICS_JSON = Path(__file__).parents[2] / "frontend/src/kinds/axis_group/kinematics.json"
 DECLARATION = """PROGRAM PLC_PRG
 VAR
     fbPower : SMC_GroupPower;
@@ -165,6 +171,62 @@ def test_a_program_adds_the_axes_of_a_group_without_any() -> None:
         assert plc.read("PLC_PRG.fbAdd.Done")
 
 
+def test_the_forms_are_those_of_the_library() -> None:
+    """Each kinematics of SM3_Transformation with its number of axes and its parameters."""
+    library = load("SM3_Transformation")
+    found = {}
+    for item in items(library):
+        if item.kind == "function_block" and item.name.startswith("Kin_"):
+            pins = [(pin.name, pin.type) for pin in item.inputs if pin.name != "adOffset"]
+            text = next(source.text for source in library.sources if source.uri.endswith(f"/{item.name}"))
+            axes = re.search(r"GetNumAxes := (\d)", text)
+            assert axes is not None
+            found[item.name] = (int(axes[1]), [name for pin in pins for name in _members(*pin)])
+    assert {name: (form.axes, list(form.parameters)) for name, form in FORMS.items()} == found
+    assert KINEMATICS_JSON.read_text(encoding="utf-8") == table()
+
+
+def _members(name: str, type_name: str) -> list[str]:
+    if type_name == "LREAL":
+        return [name]
+    one = next(item for item in items(load("SM3_Kinematics")) if item.name == type_name.rpartition(".")[2])
+    return [f"{name}.{member.name}" for member in one.members]
+
+
+def test_a_group_moves_by_its_kinematics() -> None:
+    """A SCARA with arms of 300 and 200 mm: (300, 200) is a right angle at its elbow, the first joint at 0."""
+    parameters = {"dArmLength1": 300.0, "dArmLength2": 200.0}
+    kinematics = {"type": "Kin_Scara2_Z", "parameters": parameters}
+    project = with_group("X", "Y", "Z", kinematics=kinematics, defaults={**DEFAULTS, "velocity": 50.0})
+    pool = only(project, "axis_pool")
+    project, _ = edit.add_object(project, pool.id, "axis", "Z", data={"axis_type": "finite"})
+    names = [reference.name for reference in libraries(project, application_id(project))]
+    assert "SM3_Transformation" in names
+    body = BODY.replace("a[0] := 30.0", "a[0] := 300.0").replace("a[1] := 40.0", "a[1] := 200.0")
+    body = "fbSet(AxisGroup := Machine, Execute := TRUE);\n" + body.replace("SYSTEM.ACS", "SYSTEM.MCS")
+    project = programmed(project, body)
+    declaration = DECLARATION.replace("END_VAR", "    fbSet : MC_GroupSetPosition;\nEND_VAR")
+    (program,) = project.find_kind("pou")
+    project = edit.change_data(project, program.id, {"declaration": declaration, "implementation": body})
+    with running(project) as plc:
+        plc.write("PLC_PRG.fbSet.Position.a[1]", 45.0)
+        plc.write("PLC_PRG.fbSet.CoordSystem", 0)
+        plc.run(cycles=1500)
+        assert plc.literal("IoConfig_GroupPanel_Machine.Machine.ePrepared") == "SMC_NO_ERROR"
+        assert plc.literal("PLC_PRG.fbMove.ErrorID") == "SMC_NO_ERROR"
+        assert plc.read("PLC_PRG.fbMove.Done")
+        assert [plc.read(f"{axis}.fSetPosition") for axis in "XYZ"] == pytest.approx(
+            [0.0, 90.0, 0.0], abs=1e-6
+        )
+
+
+def test_a_kinematics_has_its_axes() -> None:
+    project = with_group("X", "Y", kinematics={"type": "Kin_Gantry3"})
+    assert errors(project) == [
+        "The kinematics Kin_Gantry3 of the axis group Machine needs 3 axes, not 2; choose the others"
+    ]
+
+
 def test_an_axis_is_in_one_group_only() -> None:
     project = with_group("X", "Y")
     data = {"axes": ["Y"]}
@@ -211,6 +273,8 @@ def test_names_are_followed() -> None:
         ({"limits": {"velocity": -1.0}}, "velocity"),
         ({"limits": {"velocity": 1.0}, "defaults": {"velocity": 2.0}}, "default velocity"),
         ({"pcs_1": {"x": float("nan")}}, "x"),
+        ({"kinematics": {"type": "Kin_Gantry3", "parameters": {"dArmLength1": 1.0}}}, "no parameter"),
+        ({"kinematics": {"type": "Kin_Nothing"}}, "type"),
     ],
 )
 def test_impossible_settings_are_refused_by_name(data: dict[str, Any], place: str) -> None:

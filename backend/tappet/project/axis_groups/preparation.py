@@ -16,6 +16,7 @@ from tappet.iec.task import Task
 from tappet.project.axes.cyclic_calls import bus_task_of, fastest_cyclic
 from tappet.project.axes.settings import AxisSettings
 from tappet.project.axes.variables import NOT_WRITTEN_BY_HAND
+from tappet.project.axis_groups.kinematics import FORMS, KIN_ENDING
 from tappet.project.axis_groups.settings import AxisGroupSettings
 from tappet.project.axis_groups.variables import LIBRARY, frame
 from tappet.project.model import APPLICATION, Project, ProjectObject
@@ -72,6 +73,8 @@ def _statements(name: str, settings: AxisGroupSettings) -> str:
         f"    {panel}.Add(Group := {name}, Axis := {axis}, uiIdent := {index});"
         for index, axis in enumerate(settings.axes, 1)
     ]
+    if settings.kinematics.type:
+        steps.append(f"    {panel}.SetKinematics(Group := {name}, itfKin := {name}{KIN_ENDING});")
     lists = {"PCS_1": frame(settings.pcs_1), "PCS_2": frame(settings.pcs_2)}
     variables = [f"    st{system} : {LIBRARY}.MC_COORD_REF := {place};" for system, place in lists.items()]
     steps += [
@@ -79,7 +82,8 @@ def _statements(name: str, settings: AxisGroupSettings) -> str:
         f"stFrame := st{system});"
         for system in lists
     ]
-    number = zlib.crc32("\n".join([*steps, *variables]).encode()) or 1
+    settled = [*steps, *variables, settings.kinematics.model_dump_json()]
+    number = zlib.crc32("\n".join(settled).encode()) or 1
     return "\n".join(
         [
             "VAR CONSTANT",
@@ -143,7 +147,20 @@ def _faults(
         seen.add(key)
         if text:
             found.append(_Fault(text, index))
-    return found
+    return found or _too_few(group, names)
+
+
+def _too_few(group: ProjectObject, names: Sequence[str]) -> list[_Fault]:
+    """The kinematics needs more axes than there are; those that are added by a program count for nothing."""
+    form = FORMS.get(group.data_as(AxisGroupSettings).kinematics.type)
+    if form is None or len(names) >= form.axes:
+        return []
+    kinematics = group.data_as(AxisGroupSettings).kinematics.type
+    text = (
+        f"The kinematics {kinematics} of the axis group {group.name} needs {form.axes} axes, not "
+        f"{len(names)}; choose the others"
+    )
+    return [_Fault(text, len(names) - 1 if names else None)]
 
 
 def _foreign_tasks(

@@ -7,6 +7,7 @@ from typing import Annotated
 from pydantic import Field, model_validator
 
 from tappet.project.axes.numbers import NotNegative, Number
+from tappet.project.axis_groups.kinematics import GroupKinematics
 from tappet.project.data import CodeData, Data
 from tappet.project.naming import MAX_NAME
 
@@ -45,12 +46,16 @@ class AxisGroupSettings(CodeData):
         max_length=MOST_AXES,
         description="Names of the axes by their index in the group; empty: none chosen yet.",
     )
+    kinematics: GroupKinematics = GroupKinematics()
     limits: PathDynamics = Field(
         default=PathDynamics(),
         description="That no movement along a path exceeds; 0: the axes alone limit it.",
     )
     defaults: PathDynamics = Field(
         default=PathDynamics(), description="Of movements whose blocks say 0; 0: they have to say it."
+    )
+    jogging: PathDynamics = Field(
+        default=PathDynamics(), description="Of MC_GroupJog and MC_GroupJogVector; 0: the defaults hold."
     )
     pcs_1: CoordinateFrame = Field(
         default=CoordinateFrame(), description="Where product 1 lies in the machine."

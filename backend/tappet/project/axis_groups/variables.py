@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from tappet.project.axes.literals import real
+from tappet.project.axis_groups import kinematics
 from tappet.project.axis_groups.settings import AxisGroupSettings, CoordinateFrame, PathDynamics
 
 LIBRARY = "SM3_AxisGroup"
@@ -16,9 +17,13 @@ def declaration(name: str, settings: AxisGroupSettings) -> str:
     members = {
         "stPathLimits": dynamics(settings.limits),
         "stDefaults": dynamics(settings.defaults),
+        "stJogging": dynamics(settings.jogging),
     }
     values = ",\n".join(f"        {member} := {value}" for member, value in members.items())
-    return f"    {name} : {LIBRARY}.AXIS_GROUP_REF_SM3 := (\n{values});"
+    text = f"    {name} : {LIBRARY}.AXIS_GROUP_REF_SM3 := (\n{values});"
+    if settings.kinematics.type:
+        text += "\n" + kinematics.declaration(name, settings.kinematics)
+    return text
 
 
 def dynamics(of: PathDynamics) -> str:

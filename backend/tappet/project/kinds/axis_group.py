@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from tappet.project.axes.variables import NOT_WRITTEN_BY_HAND
+from tappet.project.axis_groups import kinematics
+from tappet.project.axis_groups.kinematics import KIN_ENDING
 from tappet.project.axis_groups.preparation import PANEL, around_tasks
 from tappet.project.axis_groups.settings import AxisGroupSettings
 from tappet.project.axis_groups.variables import LIBRARY, VARIABLES, declaration
@@ -29,6 +31,11 @@ def _renamed(data: AxisGroupSettings, renaming: Renaming) -> AxisGroupSettings:
     return data if axes == data.axes else data.model_copy(update={"axes": axes})
 
 
+def _libraries(data: AxisGroupSettings, path: str) -> list[LibraryReference]:
+    names = [LIBRARY, kinematics.LIBRARY] if data.kinematics.type else [LIBRARY]
+    return [LibraryReference(name=name, place=path) for name in names]
+
+
 AXIS_GROUP = ObjectKind(
     name="axis_group",
     words="axis group",
@@ -41,7 +48,8 @@ AXIS_GROUP = ObjectKind(
         source=_source,
         around_tasks=around_tasks,
         variable_in=(VARIABLES, PANEL),
-        libraries=lambda data, path: [LibraryReference(name=LIBRARY, place=path)],
+        variable_endings=("", KIN_ENDING),
+        libraries=_libraries,
     ),
     follow=_renamed,
     reported=True,

@@ -9,6 +9,7 @@ import { objectIcon } from '@/project/kinds';
 import { Tabs } from '@/ui/Tabs';
 import { AxesPage } from './AxesPage';
 import { FramesPage } from './FramesPage';
+import { KinematicsPage } from './KinematicsPage';
 import { LimitsPage } from './LimitsPage';
 import { canStore } from './model';
 import { OnlinePage } from './OnlinePage';
@@ -42,6 +43,7 @@ export default function AxisGroupEditor({ panelId, projectId, objectId, reveal }
   );
   const pages = [
     { id: 'axes', title: t('axisGroup.page.axes'), content: form(AxesPage) },
+    { id: 'kinematics', title: t('axisGroup.page.kinematics'), content: form(KinematicsPage) },
     { id: 'limits', title: t('axisGroup.page.limits'), content: form(LimitsPage) },
     { id: 'frames', title: t('axisGroup.page.frames'), content: form(FramesPage) },
     {

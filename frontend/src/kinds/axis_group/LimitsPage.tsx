@@ -4,7 +4,11 @@ import form from '@/editors/form/Form.module.css';
 import { groupFaults, type GroupPageProps } from './model';
 import { ValueTable } from './ValueTable';
 
-const SETS = { limits: 'axisGroup.limitsHead', defaults: 'axisGroup.defaultsHead' } as const;
+const SETS = {
+  limits: 'axisGroup.limitsHead',
+  defaults: 'axisGroup.defaultsHead',
+  jogging: 'axisGroup.joggingHead',
+} as const;
 const ROWS = {
   velocity: { text: 'axis.limit.velocity', unit: 'u/s' },
   acceleration: { text: 'axis.limit.acceleration', unit: 'u/s²' },

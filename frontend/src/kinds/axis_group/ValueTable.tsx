@@ -27,7 +27,10 @@ export function ValueTable<Column extends string, Row extends string>(props: Val
   );
   return (
     <>
-      <div className={axis.limits}>
+      <div
+        className={axis.limits}
+        style={{ gridTemplateColumns: `max-content repeat(${columnNames.length}, 120px) max-content` }}
+      >
         <span />
         {columnNames.map((column) => (
           <span key={column} className={axis.head}>

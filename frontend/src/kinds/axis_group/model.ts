@@ -18,19 +18,24 @@ export interface GroupPageProps {
 /** As many as the controller has places for (AG-03). */
 export const MOST_AXES = 6;
 export const DYNAMICS = ['velocity', 'acceleration', 'deceleration', 'jerk'] as const;
+/** Sets of dynamics. */
+export const SETS = ['limits', 'defaults', 'jogging'] as const;
 export type DynamicsName = (typeof DYNAMICS)[number];
 export const COORDINATES = ['x', 'y', 'z', 'a', 'b', 'c'] as const;
 export const PRODUCTS = ['pcs_1', 'pcs_2'] as const;
 
 /** A field that can be wrong. */
 export type FieldName =
-  `limits.${DynamicsName}` | `defaults.${DynamicsName}` | `${(typeof PRODUCTS)[number]}.${keyof Frame}`;
+  | `${(typeof SETS)[number]}.${DynamicsName}`
+  | `offsets.${number}`
+  | `parameters.${string}`
+  | `${(typeof PRODUCTS)[number]}.${keyof Frame}`;
 export type Faults = Partial<Record<FieldName, TextKey>>;
 
 /** What is wrong with settings, by field. */
 export function groupFaults(group: GroupSettings): Faults {
   const faults: Faults = {};
-  for (const set of ['limits', 'defaults'] as const) {
+  for (const set of SETS) {
     for (const name of DYNAMICS) {
       const value = group[set][name];
       if (!(Number.isFinite(value) && value >= 0)) faults[`${set}.${name}`] = 'axis.fault.notNegative';
@@ -44,6 +49,12 @@ export function groupFaults(group: GroupSettings): Faults {
     for (const name of COORDINATES) {
       if (!Number.isFinite(group[product][name])) faults[`${product}.${name}`] = 'axis.fault.number';
     }
+  }
+  group.kinematics.offsets.forEach((offset, index) => {
+    if (!Number.isFinite(offset)) faults[`offsets.${index}`] = 'axis.fault.number';
+  });
+  for (const [name, value] of Object.entries(group.kinematics.parameters)) {
+    if (!Number.isFinite(value)) faults[`parameters.${name}`] = 'axis.fault.number';
   }
   return faults;
 }
