@@ -30,6 +30,8 @@ AT_CORNERS = (0.0, 40.0, 70.0, 0.0)
 ACCELERATION, JERK = 5.0, 2.0
 STEP_S = 0.1
 END_S = 195.0
+NAMED_S = 115.0
+"""Where the curves have the names of their axes."""
 _NS_PER_S = 1_000_000_000
 
 
@@ -138,8 +140,8 @@ def picture(run: Sequence[Motion]) -> str:
         *_panel("Positions [mm]", 1, 6000.0, 1000.0, _places(paper), "r"),
         *_lines(1, 6000.0, _places(run), "m"),
     ]
-    for axis, place in zip(AXES, CORNERS[-1], strict=True):
-        parts.append(_text(_x(END_S) - 4, _y(1, place / 6000.0) - 6, axis, "end"))
+    for axis, place in zip(AXES, reference.at(NAMED_S).places, strict=True):
+        parts.append(_text(_x(NAMED_S), _y(1, place / 6000.0) - 8, axis, "middle"))
     for name, time in zip("ABC", reference.ends[1:], strict=True):
         bottom = _y(1, 0.0)
         parts.append(f'<path class="g" stroke-dasharray="3 3" d="M{_x(time):.1f} {_TOP:g}V{bottom:.1f}"/>')
