@@ -130,12 +130,16 @@ def test_pictures_of_the_pages(browser: Browser, server: Server, theme: str, lan
     with new_profile(browser, language, theme) as profile, start_page(profile, server) as page:
         project, application = new_machine(page, server)
         axes = ["X", "Y", "Gone"] if theme == "light" else ["X", "Y"]
-        add(page, server, project, application, "axis_group", "Machine", axes=axes, defaults=DEFAULTS)
+        data: dict[str, Any] = {"axes": axes, "defaults": DEFAULTS}
+        if theme == "light":
+            lengths = {"dArmLength1": 300.0, "dArmLength2": 200.0}
+            data["kinematics"] = {"type": "Kin_Scara2_Z", "parameters": lengths}
+        add(page, server, project, application, "axis_group", "Machine", **data)
         page.reload()
         open_project(page, PROJECT)
         open_object(page, "Machine")
         panel = editor(page)
-        for name in ("axes", "limits", "frames"):
+        for name in ("axes", "kinematics", "limits", "frames"):
             panel.get_by_role("tab", name=words[f"axisGroup.page.{name}"], exact=True).click()
             page.screenshot(path=folder / f"axis-group-{name}-{language}-{theme}.png")
         if theme == "dark" and language == "en":

@@ -14,6 +14,13 @@ const STATES = {
 const WAYS =
   'M255 50v100M80 50v166M150 32H185M325 160h35M325 157 360 112M325 178 360 226M150 226 190 186M430 120v30M430 186v30M360 40 322 150M325 40 360 96';
 
+/** The state of an axis in words. */
+export function StateText({ state }: { state: string | null }) {
+  const t = useText();
+  if (state === null) return '–';
+  return state in STATES ? t(STATES[state as keyof typeof STATES].text) : state;
+}
+
 /** The state machine of PLCopen with the present state lit. */
 export function StateDiagram({ state }: { state: string | null }) {
   const t = useText();

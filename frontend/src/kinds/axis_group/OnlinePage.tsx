@@ -17,6 +17,7 @@ import axisStyles from '../axis/Axis.module.css';
 import { ErrorBox } from '../axis/ErrorBox';
 import { axisPath, useExists, useShown } from '../axis/live';
 import { NotLoggedIn } from '../axis/NotLoggedIn';
+import { StateText } from '../axis/StateDiagram';
 import { StateDrawing } from '../axis/StateDrawing';
 import { Fact } from '../axis/StatusPage';
 import styles from './AxisGroup.module.css';
@@ -34,7 +35,8 @@ const STATES = {
 } as const;
 const WAYS = 'M150 138h35M325 138h35M255 50v70M150 50 195 120M360 44 315 120M372 120 318 50';
 const GROUP = ['eState', 'iHead', 'iCommands', 'fPathPosition', 'fPathVelocity', 'fPathAcceleration', 'eError'];
-const AXIS = ['fSetPosition', 'fActPosition', 'fSetVelocity', 'nAxisState'] as const;
+const VALUES = ['fSetPosition', 'fActPosition', 'fSetVelocity'] as const;
+const AXIS = [...VALUES, 'nAxisState'] as const;
 const ACTIONS = [
   { action: 'enable', icon: CircleCheck, text: 'axisGroup.enable' },
   { action: 'disable', icon: CircleOff, text: 'axisGroup.disable' },
@@ -187,17 +189,24 @@ function Positions({ runtimeId, axes }: { runtimeId: string; axes: readonly stri
             <tr key={index}>
               <td className="digits">{index + 1}</td>
               <td>{axis}</td>
-              {AXIS.map((member) => (
-                <td key={member} className={member === 'nAxisState' ? undefined : `${styles.number} digits`}>
+              {VALUES.map((member) => (
+                <td key={member} className={`${styles.number} digits`}>
                   <Shown runtimeId={runtimeId} expression={`${axisPath(axis)}.${member}`} />
                 </td>
               ))}
+              <td>
+                <AxisState runtimeId={runtimeId} expression={`${axisPath(axis)}.nAxisState`} />
+              </td>
             </tr>
           ))}
         </tbody>
       </table>
     </div>
   );
+}
+
+function AxisState({ runtimeId, expression }: { runtimeId: string; expression: string }) {
+  return <StateText state={useShown(runtimeId, expression)} />;
 }
 
 function Shown({ runtimeId, expression }: { runtimeId: string; expression: string }) {
