@@ -105,10 +105,10 @@ END_METHOD
 
 @dataclass(frozen=True)
 class Element:
-    """A piece of a path by its own length: q(s) and its first three derivatives as rows of (4, axes)."""
+    """A piece of a path by its own length: q and its first three derivatives, (4, axes) or (4, places, axes)."""
 
     length: float
-    shape: Callable[[float], Numbers]
+    shape: Callable[[float | Numbers], Numbers]
     feed: float = 0.0
     velocity: float = 0.0
     acceleration: float = 0.0
@@ -164,12 +164,14 @@ class Path:
 
     def axes_at(self, cells: Numbers, positions: Numbers) -> Numbers:
         """q of the axes at positions of the path, in cells: rows of (samples, 4, axes)."""
-        found = []
-        for cell, position in zip(cells.astype(int), positions, strict=True):
-            element, place = self.owners[min(cell, len(self.owners) - 1)]
-            start = self.knots[min(cell, len(self.owners) - 1)]
-            found.append(element.shape(place + position - start))
-        return np.array(found)
+        numbers = np.minimum(cells.astype(int), len(self.owners) - 1)
+        places = np.array([place for _, place in self.owners])[numbers] + positions - self.knots[numbers]
+        which = np.array([self.elements.index(element) for element, _ in self.owners])[numbers]
+        found = np.zeros((len(positions), 4, len(self.limits)))
+        for number in np.unique(which):
+            mine = which == number
+            found[mine] = self.elements[number].shape(places[mine]).transpose(1, 0, 2)[:, :, : len(self.limits)]
+        return found
 
 
 class Planned:
@@ -210,6 +212,10 @@ class Planned:
         table = self.outside[: cycles * len(RECORD)].reshape(cycles, len(RECORD)).copy()
         return {name: table[:, at] for at, name in enumerate(RECORD)}
 
+    def set(self, **inputs: float | bool | str) -> None:
+        """Writes inputs of the planner."""
+        self.program.set("Main.planner", **inputs)
+
     def count(self, name: str) -> int:
         return int(self.program.literal(f"Main.planner.{name}"))
 
@@ -225,7 +231,12 @@ def line(start: Sequence[float], end: Sequence[float], **limits: float) -> Eleme
     first, last = np.array(start, dtype=float), np.array(end, dtype=float)
     length = float(np.linalg.norm(last - first))
     unit, nothing = (last - first) / length, np.zeros(len(first))
-    return Element(length, lambda s: np.stack((first + s * unit, unit, nothing, nothing)), **limits)
+
+    def shape(s: float | Numbers) -> Numbers:
+        along = np.asarray(s)[..., None]
+        return np.stack((first + along * unit, unit + 0 * along, nothing + 0 * along, nothing + 0 * along))
+
+    return Element(length, shape, **limits)
 
 
 def arc(centre: Sequence[float], radius: float, start: float, sweep: float, **limits: float) -> Element:
@@ -233,10 +244,10 @@ def arc(centre: Sequence[float], radius: float, start: float, sweep: float, **li
     turn = float(np.sign(sweep)) / radius
     middle = np.array(centre, dtype=float)
 
-    def shape(s: float) -> Numbers:
-        angle = start + s * turn
-        out = np.array((np.cos(angle), np.sin(angle)))
-        across = np.array((-out[1], out[0]))
+    def shape(s: float | Numbers) -> Numbers:
+        angle = start + np.asarray(s) * turn
+        out = np.stack((np.cos(angle), np.sin(angle)), axis=-1)
+        across = np.stack((-np.sin(angle), np.cos(angle)), axis=-1)
         return np.stack(
             (middle + radius * out, radius * turn * across, -radius * turn**2 * out, -radius * turn**3 * across)
         )
@@ -244,7 +255,7 @@ def arc(centre: Sequence[float], radius: float, start: float, sweep: float, **li
     return Element(radius * abs(sweep), shape, curvature=1 / radius, **limits)
 
 
-def curve(of: Callable[[Numbers], Numbers], last: float, samples: int = 4001, **limits: float) -> Element:
+def curve(of: Callable[[Numbers], Numbers], last: float, samples: int = 1201, **limits: float) -> Element:
     """A smooth curve q(u), u from 0 to `last`, by its length: a spline of fifth degree through samples of it."""
     u = np.linspace(0.0, last, samples)
     points = of(u)
