@@ -52,12 +52,17 @@ def grid_of(path: Path, parts: int = 1, jump_time: float = 0.0) -> Grid:
         sides.append(np.concatenate((table, own), axis=1))
     limits = np.array(path.limits)
     fastest = np.minimum.reduce(
-        [np.array(feeds), *((limits[:, [0]] / np.maximum(np.abs(side[0, :-1]), 1e-12)).min(axis=0) for side in sides)]
+        [
+            np.array(feeds),
+            *((limits[:, [0]] / np.maximum(np.abs(side[0, :-1]), 1e-12)).min(axis=0) for side in sides),
+        ]
     )
     tops = np.minimum(np.append(fastest, np.inf), np.append(np.inf, fastest)) ** 2
     if jump_time:
         jumps = np.abs(sides[0][1, :-1, 1:] - sides[1][1, :-1, :-1])
-        tops[1:-1] = np.minimum(tops[1:-1], (limits[:, [2]] * jump_time / np.maximum(jumps, 1e-9)).min(axis=0))
+        tops[1:-1] = np.minimum(
+            tops[1:-1], (limits[:, [2]] * jump_time / np.maximum(jumps, 1e-9)).min(axis=0)
+        )
     element = path.elements[0]
     return Grid(
         np.array(points),
@@ -129,7 +134,10 @@ def _round(grid: Grid, x: Numbers, floor: float, step: float) -> Numbers | None:
     bends = diags_array(1 / middle) @ (forwards[1:] - forwards[:-1])  # at the inner points
     around, inner = 0.5 * (forwards[1:] + forwards[:-1]), x[1:-1]
     rows, limits = [], []
-    for side in (grid.sides[0][:, :, 1:], grid.sides[1][:, :, :-1]):  # behind the inner points, and before them
+    for side in (
+        grid.sides[0][:, :, 1:],
+        grid.sides[1][:, :, :-1],
+    ):  # behind the inner points, and before them
         for q1, q2, q3, most_a, most_j in zip(*side, grid.acceleration, grid.jerk, strict=True):
             row = _between(q2, 1, count) + diags_array(0.5 * q1) @ around
             rows += [row, -row]
@@ -140,7 +148,9 @@ def _round(grid: Grid, x: Numbers, floor: float, step: float) -> Numbers | None:
             limits += [(1.5 * most_j / np.sqrt(inner))[1:-1]] * 2
             for at, point, length in ((0, 1, h[0]), (-1, count - 2, h[-1])):  # x at the end of constant jerk
                 rows.append(_point(point, count))
-                limits.append(np.array([(4.5 * most_j / max(abs(q1[at]), 1e-9)) ** (2 / 3) * length ** (4 / 3)]))
+                limits.append(
+                    np.array([(4.5 * most_j / max(abs(q1[at]), 1e-9)) ** (2 / 3) * length ** (4 / 3)])
+                )
     tops = np.minimum(grid.tops, x * step)
     low = np.maximum(x / step, floor)
     low[[0, -1]] = tops[[0, -1]] = 0.0
@@ -166,7 +176,9 @@ def _round(grid: Grid, x: Numbers, floor: float, step: float) -> Numbers | None:
 
 def jerk_time(points: Numbers, squares: Numbers) -> float:
     """Time where the first and the last cell are gone with constant jerk."""
-    ends = 3 * (points[1] - points[0]) / np.sqrt(squares[1]) + 3 * (points[-1] - points[-2]) / np.sqrt(squares[-2])
+    ends = 3 * (points[1] - points[0]) / np.sqrt(squares[1]) + 3 * (points[-1] - points[-2]) / np.sqrt(
+        squares[-2]
+    )
     return time_of(points[1:-1], squares[1:-1]) + float(ends)
 
 

@@ -18,7 +18,18 @@ AXES = 6
 PER_CELL = 10 + 6 * AXES
 MOST_CELLS = 4000
 RECORDS = 20_000
-RECORD = ("position", "velocity", "acceleration", "jerk", "element", "limit", "axis", "share", "cell", "stands")
+RECORD = (
+    "position",
+    "velocity",
+    "acceleration",
+    "jerk",
+    "element",
+    "limit",
+    "axis",
+    "share",
+    "cell",
+    "stands",
+)
 JERK, ACCELERATION = 0, 1
 """Values of PlanMethod."""
 LIMITS = ("Standing", "Feed", "Velocity", "Joint", "Acceleration", "Jerk", "Transition")
@@ -170,7 +181,9 @@ class Path:
         found = np.zeros((len(positions), 4, len(self.limits)))
         for number in np.unique(which):
             mine = which == number
-            found[mine] = self.elements[number].shape(places[mine]).transpose(1, 0, 2)[:, :, : len(self.limits)]
+            found[mine] = (
+                self.elements[number].shape(places[mine]).transpose(1, 0, 2)[:, :, : len(self.limits)]
+            )
         return found
 
 
@@ -188,7 +201,12 @@ class Planned:
         return np.ctypeslib.as_array((ctypes.c_double * length).from_address(address))
 
     def load(
-        self, path: Path, method: int = JERK, per_cycle: int = MOST_CELLS, steps: int = 100, cycle: float = 0.001,
+        self,
+        path: Path,
+        method: int = JERK,
+        per_cycle: int = MOST_CELLS,
+        steps: int = 100,
+        cycle: float = 0.001,
         **inputs: float | bool | str,
     ) -> None:
         """Forgets what was there; so many cells of the path arrive in each cycle from the next one on."""
@@ -196,7 +214,9 @@ class Planned:
         self.inside[: rows.size] = rows.ravel()
         names = ("fVelocity", "fAcceleration", "fJerk")
         for axis, limits in enumerate(path.limits):
-            members = {f"aLimits[{axis + 1}].{name}": value for name, value in zip(names, limits, strict=True)}
+            members = {
+                f"aLimits[{axis + 1}].{name}": value for name, value in zip(names, limits, strict=True)
+            }
             self.program.set("Main.planner", **members)
         given = {"fOverride": 1.0, "xHold": False, "xClosed": False, **inputs}
         self.program.set("Main.planner", nAxes=len(path.limits), eMethod=method, **given)
@@ -249,7 +269,12 @@ def arc(centre: Sequence[float], radius: float, start: float, sweep: float, **li
         out = np.stack((np.cos(angle), np.sin(angle)), axis=-1)
         across = np.stack((-np.sin(angle), np.cos(angle)), axis=-1)
         return np.stack(
-            (middle + radius * out, radius * turn * across, -radius * turn**2 * out, -radius * turn**3 * across)
+            (
+                middle + radius * out,
+                radius * turn * across,
+                -radius * turn**2 * out,
+                -radius * turn**3 * across,
+            )
         )
 
     return Element(radius * abs(sweep), shape, curvature=1 / radius, **limits)

@@ -28,7 +28,9 @@ ALMOST = 1.005
 """What the shape between the points of a cell adds: cells of 0.1 rad and less."""
 PHASES = (Phase.explicit, Phase.reuse, Phase.generate)
 """Without shrinking: a run takes a tenth of a second."""
-SETTINGS = settings(max_examples=8, deadline=None, phases=PHASES, suppress_health_check=[HealthCheck.function_scoped_fixture])
+SETTINGS = settings(
+    max_examples=8, deadline=None, phases=PHASES, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 AXIS = (200.0, 500.0, 10_000.0)
 PART = st.floats(min_value=-1.0, max_value=1.0)
 
@@ -44,9 +46,7 @@ def random_paths(draw: st.DrawFn) -> Path:
     """Smooth curves of three axes, with random limits of each."""
     bends = np.array(draw(st.lists(PART, min_size=9, max_size=9))).reshape(3, 3)
     bends[0] = 0.0  # no cusps: the radius stays above 0.9
-    limits = [
-        (100 * 3 ** draw(PART), 400 * 3 ** draw(PART), 8000 * 3 ** draw(PART)) for _ in range(3)
-    ]
+    limits = [(100 * 3 ** draw(PART), 400 * 3 ** draw(PART), 8000 * 3 ** draw(PART)) for _ in range(3)]
     feed = 60 * 3 ** draw(PART)
 
     def shape(u: Numbers) -> Numbers:
@@ -77,7 +77,12 @@ def held(path: Path, record: dict[str, Numbers], method: int = JERK) -> None:
 
 
 @SETTINGS
-@given(path=random_paths(), per_cycle=st.integers(1, 40), steps=st.integers(1, 60), method=st.sampled_from((JERK, ACCELERATION)))
+@given(
+    path=random_paths(),
+    per_cycle=st.integers(1, 40),
+    steps=st.integers(1, 60),
+    method=st.sampled_from((JERK, ACCELERATION)),
+)
 def test_cells_that_arrive_while_the_path_is_gone(
     planner: Planned, path: Path, per_cycle: int, steps: int, method: int
 ) -> None:
@@ -98,8 +103,13 @@ def planner_time(planner: Planned, path: Path, method: int) -> float:
 
 
 @SETTINGS
-@given(path=random_paths(), changes=st.lists(st.tuples(st.integers(1, 250), st.sampled_from((0.1, 0.3, 0.6, 1.0, 1.3))), max_size=8))
-def test_the_override_changes_at_any_time(planner: Planned, path: Path, changes: list[tuple[int, float]]) -> None:
+@given(
+    path=random_paths(),
+    changes=st.lists(st.tuples(st.integers(1, 250), st.sampled_from((0.1, 0.3, 0.6, 1.0, 1.3))), max_size=8),
+)
+def test_the_override_changes_at_any_time(
+    planner: Planned, path: Path, changes: list[tuple[int, float]]
+) -> None:
     planner.load(path)
     records = []
     for cycles, override in changes:

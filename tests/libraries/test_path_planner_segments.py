@@ -46,13 +46,17 @@ def test_short_lines_are_gone_at_the_feed(planner: Planned, method: int, per_cyc
     assert velocity[ramp:-ramp].min() > 0.99 * 50
     assert velocity.max() <= 50.0
     # v/a + a/j + L/v where nothing is in the way
-    assert duration(record, 0.001) <= 1.02 * (path.knots[-1] / 50 + 50 / 400 + (400 / 8000 if method == JERK else 0.0)) + 0.01
+    assert (
+        duration(record, 0.001)
+        <= 1.02 * (path.knots[-1] / 50 + 50 / 400 + (400 / 8000 if method == JERK else 0.0)) + 0.01
+    )
 
 
 def test_another_feed_on_each_line_stops_nothing(planner: Planned) -> None:
     """Feeds of 40 and 60 in turn, ten lines each: as one path whose top has steps."""
     elements = [
-        line((n, 0), (n + 1, 0), feed=60.0 if n // 10 % 2 else 40.0, acceleration=400, jerk=8000) for n in range(100)
+        line((n, 0), (n + 1, 0), feed=60.0 if n // 10 % 2 else 40.0, acceleration=400, jerk=8000)
+        for n in range(100)
     ]
     path = Path(elements, 0.25, [AXIS] * 2)
     planner.load(path, JERK, 4)

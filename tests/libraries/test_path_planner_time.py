@@ -54,7 +54,10 @@ def paths() -> dict[str, Path]:
             [AXIS, (120.0, 300.0, 6000.0), (30.0, 80.0, 3000.0)],
         ),
         "feed in steps": Path(
-            [line((20 * n, 0), (20 * n + 20, 0), feed=feed, **own) for n, feed in enumerate((60, 150, 20, 90))],
+            [
+                line((20 * n, 0), (20 * n + 20, 0), feed=feed, **own)
+                for n, feed in enumerate((60, 150, 20, 90))
+            ],
             0.4,
             [AXIS] * 2,
         ),

@@ -8,7 +8,7 @@ from importlib import import_module
 from tappet.cli.arguments import ArgumentParser
 from tappet.cli.errors import UsageError
 
-BENCHMARKS = ("scan", "axes", "cnc", "jitter", "load", "build", "editor", "start", "trace")
+BENCHMARKS = ("scan", "axes", "cnc", "path-planner", "jitter", "load", "build", "editor", "start", "trace")
 
 
 def bench_arguments(parser: ArgumentParser) -> None:
@@ -23,6 +23,6 @@ def bench(given: Namespace) -> int:
     if given.name is not None and given.name not in BENCHMARKS:
         raise UsageError(f"there is no benchmark '{given.name}'; there are {', '.join(BENCHMARKS)}")
     for name in [given.name] if given.name else BENCHMARKS:
-        report = import_module(f"tappet.bench.{name}").run()
+        report = import_module(f"tappet.bench.{name.replace('-', '_')}").run()
         print(report.json() if given.format == "json" else report.text())
     return 0
