@@ -36,7 +36,7 @@ _SHARE = np.arange(256) / 255.0
 _LIGHT_OF = np.round(
     255.0 * np.where(_SHARE <= 0.04045, _SHARE / 12.92, ((_SHARE + 0.055) / 1.055) ** 2.4)
 ).astype(np.uint8)
-"""viser takes colours of lines as amounts of light: the inverse of the transfer function of sRGB (IEC 61966-2-1)."""
+"""viser takes colours of lines as amounts of light: the inverse of the transfer function of sRGB."""
 _NO_LINES = np.zeros((1, 2, 3), np.float32)
 """viser wants one line at least; this one has no length."""
 
