@@ -61,3 +61,14 @@ def test_commands_and_their_words(number: int) -> None:
         text = " ".join([f"N0 G{number}", f"{letter}1", *(f"{other}0.5" for other in others), "F9"])
         refused = any(problem.severity == "error" for problem in check(parse(text).lines))
         assert (decode(text).error == 1204) == refused, text
+
+
+@pytest.mark.parametrize("extra", ["H1 O0.5", "PROBE2", "PROBE2 H1 O0.5"])
+@pytest.mark.parametrize("number", sorted(COMMANDS))
+def test_commands_with_switch_points_and_probes(number: int, extra: str) -> None:
+    """The checks and the decoder know the same commands with a switch point, and with a probe."""
+    needs = [f"{letter}5" for letter in sorted(COMMANDS[number].needs)[:1]]
+    axes = ["X7"] if "X" in COMMANDS[number].words else []
+    text = " ".join([f"N5 G{number}", *needs, *axes, extra, "F9"])
+    refused = any(problem.severity == "error" for problem in check(parse(text).lines))
+    assert (decode(text).error == 1204) == refused, text
