@@ -109,7 +109,7 @@ def test_a_group_is_made_watched_and_stopped(page: Page, server: Server) -> None
     expect(first.nth(0)).to_have_text("PLC_PRG.fbFirst")
     expect(first.nth(1)).to_have_text("MC_MoveLinearAbsolute")
     expect(first.nth(4)).to_have_text("20")
-    expect(first.nth(6)).to_have_text("Active")
+    expect(first.nth(6)).to_have_text("Runs")
     expect(rows.nth(1).locator("td").nth(5)).to_have_text("400")
     expect(rows.nth(1).locator("td").nth(6)).to_have_text("Waits")
     panel.get_by_role("button", name="Stop").click()

@@ -22,7 +22,7 @@ export function AxesPage({ projectId, objectId, group, disabled, change }: Group
   const rows = axisRows(group.axes, choices);
   const set = (axes: readonly string[]) => change({ axes: [...axes] });
   const readOnly = disabled ? t('axisGroup.readOnly') : null;
-  const full = group.axes.length >= MOST_AXES ? t('axisGroup.full', { most: MOST_AXES }) : null;
+  const full = group.axes.length >= MOST_AXES ? t('axisGroup.full') : null;
   return (
     <Section
       title={t('axisGroup.axes')}
