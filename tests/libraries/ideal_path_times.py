@@ -1,8 +1,9 @@
 """The shortest time along a path by linear programming: the reference for SM3_PathPlanner.
 
-With limited acceleration the problem is linear in the squares of the velocity, and its largest solution is the fastest one
-(Verscheure et al. 2009). With limited jerk the bound of d2(v^2)/ds2 is J/v: convex, so its tangent is a bound that is
-sufficient, and programs with the tangents at the solution before get faster one after the other (Debrouwere et al. 2013).
+With limited acceleration the problem is linear in the squares of the velocity, and its largest solution is
+the fastest one (Verscheure et al. 2009). With limited jerk the bound of d2(v^2)/ds2 is J/v: convex, so its
+tangent is a bound that is sufficient, and programs with the tangents at the solution before get faster one
+after the other (Debrouwere et al. 2013).
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ ROUNDS = 40
 
 @dataclass(frozen=True)
 class Grid:
-    """Cells of a path: the derivatives of its axes and of the path itself (last row) at both ends, and the limits."""
+    """Cells of a path: derivatives of its axes and of the path itself (last row) at both ends; limits."""
 
     points: Numbers
     sides: tuple[Numbers, Numbers]  # start and end of the cells: (order, rows, cells)
@@ -33,7 +34,8 @@ class Grid:
 def grid_of(path: Path, parts: int = 1, jump_time: float = 0.0) -> Grid:
     """The cells of a path, each in so many parts; all elements have the same limits but the feed.
 
-    Where the curvature jumps, an axis may take the jump of its acceleration within `jump_time` by its jerk, if that is given.
+    Where the curvature jumps, an axis may take the jump of its acceleration within `jump_time` by its jerk,
+    if that is given.
     """
     points, starts, ends, feeds = [0.0], [], [], []
     for cell in range(len(path.owners)):
@@ -156,7 +158,8 @@ def _round(grid: Grid, x: Numbers, floor: float, step: float) -> Numbers | None:
     low[[0, -1]] = tops[[0, -1]] = 0.0
     weight = np.zeros(count)
     weight[1:-1] = middle * inner**-1.5
-    # Out of standstill v^2 rises with s^(4/3): the slope at the first inner point is 4/3 v^2/h, at the last one as much down
+    # Out of standstill v^2 rises with s^(4/3): the slope at the first inner point is 4/3 v^2/h, at the last
+    # one as much down
     ends = vstack(
         (
             forwards[[1]] - _point(1, count) * (4 / 3 / h[0]),

@@ -116,7 +116,7 @@ END_METHOD
 
 @dataclass(frozen=True)
 class Element:
-    """A piece of a path by its own length: q and its first three derivatives, (4, axes) or (4, places, axes)."""
+    """A piece of a path by its own length: q and three derivatives, (4, axes) or (4, places, axes)."""
 
     length: float
     shape: Callable[[float | Numbers], Numbers]
@@ -281,7 +281,7 @@ def arc(centre: Sequence[float], radius: float, start: float, sweep: float, **li
 
 
 def curve(of: Callable[[Numbers], Numbers], last: float, samples: int = 1201, **limits: float) -> Element:
-    """A smooth curve q(u), u from 0 to `last`, by its length: a spline of fifth degree through samples of it."""
+    """A smooth curve q(u), u from 0 to `last`, by its length: a quintic spline through samples of it."""
     u = np.linspace(0.0, last, samples)
     points = of(u)
     speed = make_interp_spline(u, points, k=5).derivative()(u)
@@ -315,7 +315,7 @@ def rounded_corners(cell: float, feed: float, limits: Sequence[tuple[float, floa
 
 @dataclass(frozen=True)
 class AxisMotion:
-    """Velocity, acceleration and jerk of the axes by the chain rule, and by differences of their positions."""
+    """Position of the axes; velocity, acceleration and jerk by the chain rule."""
 
     position: Numbers
     velocity: Numbers

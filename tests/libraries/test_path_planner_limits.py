@@ -1,4 +1,4 @@
-"""No axis is beyond a limit of velocity, acceleration or jerk, whatever the path, however it arrives, whatever is changed."""
+"""No axis is beyond a limit of velocity, acceleration or jerk, however a path arrives or is changed."""
 
 from __future__ import annotations
 

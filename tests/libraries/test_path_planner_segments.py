@@ -1,8 +1,9 @@
-"""Paths of many short lines: gone at the feed without stutter, through a window that is shorter than they are."""
+"""Paths of many short lines: gone at the feed without stutter, through a window shorter than they are."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -30,7 +31,7 @@ def chords(count: int, radius: float = 20.0, length: float = 0.1, **limits: floa
     """A circle by short lines."""
     turn = 2 * np.arcsin(length / 2 / radius)
     corners = [(radius * np.sin(n * turn), radius * (1 - np.cos(n * turn))) for n in range(count + 1)]
-    return [line(one, other, **limits) for one, other in zip(corners, corners[1:], strict=False)]
+    return [line(one, other, **limits) for one, other in pairwise(corners)]
 
 
 @pytest.mark.parametrize("method", [JERK, ACCELERATION])
@@ -63,7 +64,7 @@ def test_another_feed_on_each_line_stops_nothing(planner: Planned) -> None:
     record = planner.move(5000)
     assert record["position"][-1] == path.knots[-1]
     moving = record["velocity"][: round(duration(record, 0.001) / 0.001)]
-    # With limited jerk it is faster to be a little slower before a step up: the acceleration is there when the step comes
+    # With limited jerk it is faster to be a little slower before a step up: the acceleration is there then
     assert moving[250:-250].min() > 0.94 * 40
     assert moving.max() > 0.985 * 60
     feeds = np.array([element.feed for element, _ in path.owners])[record["element"].astype(int)]

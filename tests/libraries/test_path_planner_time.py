@@ -1,4 +1,4 @@
-"""How close the planned motion comes to the shortest time: beside Ruckig on lines, beside linear programs on curves."""
+"""How close planned motion is to the shortest time: of Ruckig on lines, of linear programs on curves."""
 
 from __future__ import annotations
 

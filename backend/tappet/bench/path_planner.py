@@ -1,7 +1,8 @@
 """Cells a second that the path planner plans, and what a cycle of the motion costs.
 
-The path is endless: as many cells arrive in a call as are gone in it, so each is planned as often as the window is planned
-anew. Beside it stands the bar of the whole chain of CNC blocks, 200,000 short lines a second, as nanoseconds of a line.
+The path is endless: as many cells arrive in a call as are gone in it, so each is planned as often as the
+window is planned anew. Beside it stands the bar of the whole chain of CNC blocks, 200,000 short lines a
+second, as nanoseconds of a line.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from tappet.bench.native import NativeLoop
 from tappet.bench.program import running
 from tappet.bench.report import Report, Row
+from tappet.runtime.local import LocalRuntime
 
 BAR_NS = 1e9 / 200_000
 CALLS = 400
@@ -73,7 +75,7 @@ _CYCLES = "FOR k := 1 TO 200 DO\n    planner.Advance(0.001);\nEND_FOR"
 def planned(
     loop: NativeLoop, method: str, axes: int, direct: str, cycles: str = _STEADY
 ) -> tuple[float, int]:
-    """Nanoseconds of a cell, appended, planned and gone, and the number of cells gone; ValueError if the path stands."""
+    """Nanoseconds of a cell, appended, planned and gone, and the cells gone; ValueError if none."""
     turn = f"{TURN}"
     text = PROGRAM.format(
         axes=axes, method=method, turn=turn, cycles=cycles, direct=direct.replace("{turn}", turn)
@@ -82,13 +84,19 @@ def planned(
         loop.seconds(cycle, 20)
         found = []
         for _ in range(ROUNDS):
-            before = int(runtime.read("Main.nGone"))
+            before = _gone(runtime)
             seconds = loop.seconds(cycle, CALLS)
-            gone = int(runtime.read("Main.nGone")) - before
+            gone = _gone(runtime) - before
             if gone == 0:
                 raise ValueError("the path stands: something else was measured")
             found.append(seconds / gone * 1e9)
-        return min(found), int(runtime.read("Main.nGone"))
+        return min(found), _gone(runtime)
+
+
+def _gone(runtime: LocalRuntime) -> int:
+    found = runtime.read("Main.nGone")
+    assert isinstance(found, int)
+    return found
 
 
 def run() -> Report:
