@@ -86,6 +86,7 @@ generate: $(VENV)/.ready frontend/node_modules/.ready
 	$(BIN)/python -m tappet.iec.typescript
 	$(BIN)/python -m tappet.iec.task_typescript
 	$(BIN)/python -m tappet.iec.textmate
+	$(BIN)/python -m tappet.cnc.dialect > frontend/src/kinds/cnc/dialect.json
 	$(BIN)/python -m tappet.project.axes.channels > frontend/src/kinds/axis/channels.json
 	$(BIN)/python -m tappet.project.axis_groups.kinematics > frontend/src/kinds/axis_group/kinematics.json
 	$(BIN)/python -m tappet.lang.languages.il.typescript

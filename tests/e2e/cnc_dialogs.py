@@ -19,12 +19,13 @@ TITLES = {
     "cnc.array": "cnc.arrayTitle",
     "cnc.import": "cnc.importTitle",
     "cnc.variables": "cnc.offlineValues",
+    "cnc.info": "cnc.infoOf",
     "cnc.properties": "cnc.propertiesOf",
 }
 """Commands of the CNC menu that ask for something, and the titles of their dialogs."""
 
 
-@tour(*TITLES.values())
+@tour(*TITLES.values(), "cnc.code", "cncSettings.parametersOf")
 def cnc(ui: Ui, server: Server) -> Iterator[str]:
     """What the operations of a program ask for, its properties, and the values of its variables."""
     page = ui.page
@@ -43,6 +44,28 @@ def cnc(ui: Ui, server: Server) -> Iterator[str]:
             menu.click()
             page.get_by_role("menuitem", name=ui.name(command)).click()
             yield title
+            if command == "cnc.info":
+                show = ui.button("cnc.showCode")
+                expect(show).to_be_enabled(timeout=60_000)
+                show.click()
+                yield "cnc.code"
+                page.keyboard.press("Escape")
             page.keyboard.press("Escape")
+        settings = next(
+            one for one in fetch(page, server, "GET", f"{project}/objects") if one["kind"] == "cnc_settings"
+        )
+        chain = {"preprocessing": [{"block": "SMC_SmoothPath"}]}
+        fetch(
+            page,
+            server,
+            "PUT",
+            f"{project}/objects/{settings['id']}",
+            data={"data": chain, "base_revision": settings["revision"]},
+        )
+        open_object(page, "CNC settings")
+        used = page.get_by_role("grid", name=ui.name("cncSettings.used"))
+        used.get_by_role("gridcell", name="SMC_SmoothPath").dblclick()
+        yield "cncSettings.parametersOf"
+        page.keyboard.press("Escape")
     finally:
         fetch(page, server, "DELETE", f"{project}/objects/{own}")

@@ -106,3 +106,65 @@ def test_a_word_is_explained_and_the_properties_open(page: Page, program: tuple[
     editor_of(page).get_by_role("button", name="CNC", exact=True).click()
     page.get_by_role("menuitem", name="CNC Properties").click()
     expect(page.get_by_role("dialog")).to_be_visible()
+
+
+def test_the_info_and_the_code_of_a_program(page: Page, server: Server, program: tuple[str, str]) -> None:
+    """CNC-20, CNC-21, EX-01: 11 s by the blocks of the controller; code only without errors."""
+    path, object_id = program
+    stored = fetch(page, server, "GET", f"{path}/objects/{object_id}")
+    data = {**stored["data"], "implementation": "N0 G1 X100 F10 E10 E-10"}
+    order = {"data": data, "base_revision": stored["revision"]}
+    fetch(page, server, "PUT", f"{path}/objects/{object_id}", data=order)
+    expect(lines(page).first).to_have_text(re.compile("N0.G1.X100"))
+    editor_of(page).get_by_role("button", name="CNC").click()
+    page.get_by_role("menuitem", name="CNC Info").click()
+    dialog = page.get_by_role("dialog", name="CNC info of Contour")
+    expect(dialog).to_contain_text("11 s", timeout=60_000)
+    expect(dialog).to_contain_text("100 u")
+    dialog.get_by_role("button", name="Show generated code").click()
+    code = page.get_by_role("dialog", name="Generated code")
+    expect(code).to_contain_text("Contour : SM3_CNC.SMC_CNC_REF")
+
+
+def test_the_chain_of_the_settings_is_made_by_keys_and_buttons(
+    page: Page, server: Server, program: tuple[str, str]
+) -> None:
+    """CNCS-03 to CNCS-10: add, order, parameters, remove, interpolation time."""
+    path, _ = program
+    page.get_by_role("treeitem", name="CNC settings").dblclick()
+    settings = editor_of(page)
+    offered = settings.get_by_role("grid", name="Blocks of the library")
+    used = settings.get_by_role("grid", name="Chain, in the order of execution")
+    expect(used.get_by_role("row")).to_have_count(4)
+    offered.get_by_role("gridcell", name="SMC_SmoothPath").click()
+    offered.press("Space")
+    offered.get_by_role("gridcell", name="SMC_ToolCorr").dblclick()
+    cells = used.get_by_role("row")
+    expect(cells.nth(2)).to_contain_text("SMC_SmoothPath")
+    expect(cells.nth(3)).to_contain_text("SMC_ToolCorr")
+    cells.nth(3).get_by_role("gridcell").first.click()
+    used.press("Shift+ArrowUp")
+    expect(cells.nth(2)).to_contain_text("SMC_ToolCorr")
+    used.press("p")
+    dialog = page.get_by_role("dialog", name="Parameters of SMC_ToolCorr")
+    dialog.get_by_label("dToolRadius").fill("2.5")
+    dialog.get_by_role("button", name="Apply").click()
+    expect(cells.nth(2)).to_contain_text("dToolRadius := 2.5")
+    cells.nth(3).get_by_role("gridcell").first.click()
+    used.press("Delete")
+    expect(used.get_by_role("row")).to_have_count(5)
+    settings.get_by_role("tab", name="Pre-interpolation").click()
+    settings.get_by_label("Interpolation time").fill("4000")
+
+    def stored() -> object:
+        objects = fetch(page, server, "GET", f"{path}/objects")
+        found = next(one["id"] for one in objects if one["kind"] == "cnc_settings")
+        data = fetch(page, server, "GET", f"{path}/objects/{found}")["data"]
+        return [data["interpolation_time_us"], data["preprocessing"]]
+
+    tool = {"block": "SMC_ToolCorr", "parameters": [{"name": "dToolRadius", "value": "2.5"}]}
+    for _ in range(50):
+        if stored() == [4000, [tool]]:
+            break
+        page.wait_for_timeout(200)
+    assert stored() == [4000, [tool]]

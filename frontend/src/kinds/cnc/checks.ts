@@ -1,5 +1,16 @@
 /** What is wrong with a block, from its words and what holds before it (cnc.md CNC-35, CNC-37, GC-02 to GC-09, GEO-05). */
-import { actOf, AXES, codeOf, G_CODES, isTravel, lettersOf, type Act } from './gcodes';
+import {
+  actOf,
+  ADDRESSES,
+  codeOf,
+  G_CODES,
+  isTravel,
+  lettersOf,
+  LIMITLESS,
+  MODAL,
+  MOST_SWITCHES,
+  type Act,
+} from './gcodes';
 import { valueOf, wordOf, type Block, type Word } from './line';
 import { arcOf, namesAxis, openingOf, type State } from './state';
 
@@ -46,17 +57,19 @@ export interface Conditions {
   readonly suppress: boolean;
 }
 
-/** Switch points of one element (H). */
-export const MOST_SWITCHES = 3;
 const LARGEST_ANGLE = 1080;
 const WHOLE: ReadonlySet<string> = new Set(['G', 'M', 'H']);
-const KNOWN = new RegExp(`^(?:[${AXES}DEFGHIJKLMNORST]|[FE][ZABCPQUVW]|FF|EF|PROBE)$`);
 
 function finding(rule: Rule, at: { at: number; end: number }, values: Finding['values'] = {}): Finding {
   return { rule, severity: 'error', at: at.at, end: at.end, values };
 }
 function warning(rule: Rule, at: { at: number; end: number }, values: Finding['values'] = {}): Finding {
   return { ...finding(rule, at, values), severity: 'warning' };
+}
+
+/** An address that is asked whether the command takes it: modal ones stand anywhere, of others another message tells. */
+function isKnown(address: string): boolean {
+  return ADDRESSES.has(address) && !MODAL.has(address) && !LIMITLESS.has(address) && address !== 'PROBE';
 }
 
 /** What a command is called: `G1`, `M`. */
@@ -86,7 +99,7 @@ function tokenFindings(block: Block): Finding[] {
 function wordFindings(block: Block): Finding[] {
   return block.words.flatMap((word): Finding[] => {
     const { address, value } = word;
-    if (!KNOWN.test(address)) return [finding('unknownLetter', word, { letter: address })];
+    if (!ADDRESSES.has(address) || LIMITLESS.has(address)) return [finding('unknownLetter', word, { letter: address })];
     if (value.kind === 'none') return [finding('missingValue', word, { letter: address })];
     if (value.kind === 'expression' || address === 'PROBE')
       return [finding('extension', word, { name: block.text.slice(word.at, word.end) })];
@@ -117,13 +130,21 @@ function commandFindings(block: Block, act: Act): Finding[] {
   const letters = lettersOf(act);
   if (letters !== null)
     for (const word of block.words)
-      if (!'GMN'.includes(word.address) && KNOWN.test(word.address) && !letters.has(word.address))
+      if (!'GMN'.includes(word.address) && isKnown(word.address) && !letters.has(word.address))
         found.push(finding('notTaken', word, { letter: word.address, command: nameOfAct(act) }));
-  const missing = (known?.needs ?? []).filter((letter) => wordOf(block, letter) === undefined);
-  if (missing.length > 0 && act.kind === 'g')
-    found.push(finding('needs', first ?? range(block), { command: nameOfAct(act), letters: missing.join(' ') }));
-  if ((code === 2 || code === 3) && act.kind === 'g' && !['R', 'I', 'J', 'K', 'T'].some((one) => wordOf(block, one)))
-    found.push(finding('needsCentre', first ?? range(block), { command: nameOfAct(act) }));
+  const needs = known?.needs ?? [];
+  const moves = block.words.some(({ address }) => !'GMN'.includes(address) && !MODAL.has(address));
+  if (
+    needs.length > 0 &&
+    act.kind === 'g' &&
+    needs.every((letter) => wordOf(block, letter) === undefined) &&
+    (moves || known?.travels !== true)
+  )
+    found.push(
+      code === 2 || code === 3
+        ? finding('needsCentre', first ?? range(block), { command: nameOfAct(act) })
+        : finding('needs', first ?? range(block), { command: nameOfAct(act), letters: needs.join(' / ') }),
+    );
   return [...found, ...repeated(block), ...(act.kind === 'm' ? [] : switchFindings(block, code))];
 }
 

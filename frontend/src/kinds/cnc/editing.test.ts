@@ -48,7 +48,6 @@ describe('quick fixes', () => {
     ['X5 Y5', 'G1 X5 Y5'],
     ['G1 X5 (open', 'G1 X5 (open)'],
     ['G90 G1 X5', 'G90\nG1 X5'],
-    ['G41', 'G41 D1'],
     ['G1 X5 H1', 'G1 X5 H1 O0.5'],
     ['N10 G1 X1\nN10 G1 X2', 'N10 G1 X1\nN20 G1 X2'],
     ['N10 G1 X1\nG20 L11', 'N10 G1 X1\nG20 L10'],

@@ -1,118 +1,56 @@
-/** The commands of the dialect and the letters that each one takes (cnc.md, section 8). */
+/** The commands of the dialect and the letters that each one takes (cnc.md, section 8): the table of the compiler. */
+import dialect from './dialect.json';
 import { wordOf, type Block } from './line';
 
-export const AXES = 'XYZABCPQUVW';
-const LIMITS = [...'ZABCPQUVW'].flatMap((axis) => [`F${axis}`, `E${axis}`]);
-/** Values that hold until another one is given (GC-12). */
-export const RATES: readonly string[] = ['F', 'E', 'FF', 'EF', ...LIMITS, 'S'];
-
-export type Group = 'motion' | 'spline' | 'mode' | 'range' | 'shift' | 'control';
+export const AXES = dialect.axes;
+/** All addresses that a word may have. */
+export const ADDRESSES: ReadonlySet<string> = new Set(dialect.addresses);
+/** Values that hold until another one is given, and stand in any block (GC-12). */
+export const MODAL: ReadonlySet<string> = new Set(dialect.modal);
+/** Those of movements. */
+export const RATES: readonly string[] = dialect.modal.filter((address) => address !== 'D');
+/** Limits of axes that a path element has no place for. */
+export const LIMITLESS: ReadonlySet<string> = new Set(dialect.limitless);
+export const M_LETTERS: ReadonlySet<string> = new Set(dialect.functionLetters);
+export const LAST_M = dialect.lastFunction;
+/** Switch points of one element (H). */
+export const MOST_SWITCHES = dialect.mostSwitches;
 
 export interface GCode {
   readonly code: number;
-  readonly group: Group;
-  /** A program of the usual decoder has it; others are known to the interpreter of newer versions only. */
+  /** The decoder has it. */
   readonly supported: boolean;
+  /** It stays for blocks without one (GC-06). */
+  readonly travels: boolean;
+  /** Those that are proposed; modal values stand in any block. */
   readonly letters: ReadonlySet<string>;
-  /** Letters without which the command means nothing. */
+  /** Letters of which it needs one, where there are some. */
   readonly needs: readonly string[];
   /** The table has no element for it (CNC-47). */
   readonly textOnly: boolean;
 }
 
-const AX = [...AXES];
-const VEL = ['F', 'E', 'FF', 'EF', ...LIMITS];
-const SWITCH = ['H', 'L', 'O'];
-const PATH = [...AX, ...VEL, ...SWITCH, 'D', 'S'];
+/** Commands with an element in the table (CNC-48). */
+const IN_TABLE: ReadonlySet<number> = new Set([
+  0, 1, 2, 3, 5, 8, 9, 10, 40, 41, 42, 50, 51, 52, 60, 61, 90, 91, 92, 98, 99,
+]);
 
-interface Row {
-  letters?: readonly string[];
-  needs?: readonly string[];
-  extension?: true;
-  table?: true;
-}
-
-const GROUPS: Readonly<Record<Group, Readonly<Record<number, Row>>>> = {
-  motion: {
-    0: { letters: [...AX, ...VEL, ...SWITCH, 'S'], table: true },
-    1: { letters: PATH, table: true },
-    2: { letters: [...PATH, 'R', 'I', 'J', 'K', 'T'], table: true },
-    3: { letters: [...PATH, 'R', 'I', 'J', 'K', 'T'], table: true },
-    6: { letters: [...PATH, 'I', 'J'], needs: ['I', 'J'] },
-    8: { letters: [...PATH, 'I', 'J', 'K', 'R'], needs: ['I', 'J'], table: true },
-    9: { letters: [...PATH, 'I', 'J', 'K', 'R'], needs: ['I', 'J'], table: true },
-    31: { letters: [...AX, ...VEL, 'S', 'PROBE'], extension: true },
-  },
-  spline: {
-    5: { letters: PATH, table: true },
-    10: { letters: PATH, table: true },
-  },
-  mode: {
-    15: {},
-    16: { letters: ['I', 'J', 'K'] },
-    17: {},
-    18: {},
-    19: {},
-    90: { table: true },
-    91: { table: true },
-    98: { table: true },
-    99: { table: true },
-  },
-  range: {
-    38: { letters: ['L', 'D'], needs: ['L'] },
-    39: { letters: ['L', 'D'], needs: ['L'] },
-    40: { table: true },
-    41: { letters: ['D'], needs: ['D'], table: true },
-    42: { letters: ['D'], needs: ['D'], table: true },
-    43: { letters: ['I', 'J', 'K'] },
-    50: { table: true },
-    51: { letters: ['D'], needs: ['D'], table: true },
-    52: { letters: ['D'], needs: ['D'], table: true },
-    60: { table: true },
-    61: { table: true },
-    70: { letters: ['L'], needs: ['L'] },
-    71: { letters: ['L'], needs: ['L'] },
-  },
-  shift: {
-    53: {},
-    54: { letters: AX },
-    55: { letters: AX },
-    56: { letters: AX },
-    92: { letters: [...AX, ...SWITCH], table: true },
-  },
-  control: {
-    4: { letters: ['T'], needs: ['T'] },
-    20: { letters: ['L', 'K'], needs: ['L'] },
-    36: { letters: ['O', 'D'], needs: ['D'] },
-    37: { letters: ['O', 'D'], needs: ['D'] },
-    75: {},
-  },
-};
+/** Modes that usually say a radius or distance with them. */
+const SET_BY_D: ReadonlySet<number> = new Set([41, 42, 51, 52]);
 
 export const G_CODES: ReadonlyMap<number, GCode> = new Map(
-  Object.entries(GROUPS)
-    .flatMap(([group, rows]) =>
-      Object.entries(rows).map(([code, row]): [number, GCode] => [
-        Number(code),
-        {
-          code: Number(code),
-          group: group as Group,
-          supported: row.extension !== true,
-          letters: new Set(row.letters),
-          needs: row.needs ?? [],
-          textOnly: row.table !== true,
-        },
-      ]),
-    )
+  Object.entries(dialect.commands)
+    .map(([name, { letters, needs, travels, supported }]): [number, GCode] => {
+      const code = Number(name);
+      const possible = new Set([...letters, ...(travels ? MODAL : SET_BY_D.has(code) ? ['D'] : [])]);
+      return [code, { code, supported, travels, letters: possible, needs, textOnly: !IN_TABLE.has(code) }];
+    })
     .sort(([a], [b]) => a - b),
 );
 
-export const M_LETTERS: ReadonlySet<string> = new Set(['K', 'L', 'O']);
-
 /** Moves along a path, so that coordinates without a command go on with it (GC-06). */
 export function isTravel(code: number): boolean {
-  const group = G_CODES.get(code)?.group;
-  return group === 'motion' || group === 'spline';
+  return G_CODES.get(code)?.travels === true;
 }
 
 /** What a block does: a G command, an M function, coordinates for the command before, or nothing but values. */
@@ -125,7 +63,7 @@ export type Act =
   | { readonly kind: 'unknown' };
 
 /** Letters that make a block without a command an element of the path. */
-const MOVES: ReadonlySet<string> = new Set([...AX, 'I', 'J', 'R', 'T']);
+const MOVES: ReadonlySet<string> = new Set([...AXES, 'I', 'J', 'R', 'T']);
 
 export function actOf(block: Block, travel: number | null): Act {
   const g = wordOf(block, 'G');

@@ -41,7 +41,7 @@ export interface Block {
 const NUMBER = /[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?/y;
 const VARIABLE = /\$[^$]*\$/y;
 const EXPRESSION = /[+-]?(?:#\w+|\{[^}]*\})(?:[*/+-](?:#\w+|\{[^}]*\}|\d+(?:\.\d*)?))*/y;
-const ADDRESS = /PROBE|FF|EF|[FE][ZABCPQUVW]|[A-Z]/iy;
+const ADDRESS = /PROBE|FF|EF|[FE][XYZABCPQUVW]|[A-Z]/iy;
 const STATEMENT = /(?:LET|SUBPROGRAM|END_SUBPROGRAM|RETURN)\b.*|[A-Z_]\w+\s*\{.*/iy;
 const BLANK = /[^\S\n]+/y;
 const COMMENT = /\([^)]*\)?|\/\/.*/y;
