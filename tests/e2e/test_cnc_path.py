@@ -46,7 +46,7 @@ def picture(page: Page, name: str) -> None:
 
 def drawn(page: Page, elements: int) -> None:
     pane = pane_of(page)
-    expect(pane.get_by_role("status").first).to_contain_text(f"Elements: {elements}", timeout=READY_MS)
+    expect(pane.get_by_test_id("path-facts")).to_contain_text(f"Elements: {elements}", timeout=READY_MS)
     expect(pane.get_by_test_id("path-overlay")).to_be_visible(timeout=READY_MS)
 
 

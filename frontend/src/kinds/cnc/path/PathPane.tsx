@@ -133,7 +133,12 @@ export function PathPane(props: PathPaneProps) {
           pressed={playing}
           onClick={() => setPlaying(!playing)}
         />
-        <span className={styles.facts} role="status" data-tone={summary?.fault ? 'error' : undefined}>
+        <span
+          className={styles.facts}
+          aria-live="polite"
+          data-testid="path-facts"
+          data-tone={summary?.fault ? 'error' : undefined}
+        >
           {busy
             ? t('cnc.path.making')
             : (summary?.fault ??
