@@ -4147,6 +4147,31 @@ export interface components {
              */
             exclude_from_build?: boolean;
             /**
+             * @description Of MC_GroupJog and MC_GroupJogVector; 0: the defaults hold.
+             * @default {
+             *       "acceleration": 0,
+             *       "deceleration": 0,
+             *       "jerk": 0,
+             *       "velocity": 0
+             *     }
+             */
+            jogging: components["schemas"]["PathDynamics"];
+            /**
+             * @default {
+             *       "offsets": [
+             *         0,
+             *         0,
+             *         0,
+             *         0,
+             *         0,
+             *         0
+             *       ],
+             *       "parameters": {},
+             *       "type": ""
+             *     }
+             */
+            kinematics: components["schemas"]["GroupKinematics"];
+            /**
              * @description That no movement along a path exceeds; 0: the axes alone limit it.
              * @default {
              *       "acceleration": 0,
@@ -7480,6 +7505,40 @@ export interface components {
              * @default 1
              */
             rated_torque: number;
+        };
+        /**
+         * GroupKinematics
+         * @description What leads from the axes of a group to the machine and back.
+         */
+        GroupKinematics: {
+            /**
+             * Offsets
+             * @description adOffset: of the axes by their index, in units.
+             * @default [
+             *       0,
+             *       0,
+             *       0,
+             *       0,
+             *       0,
+             *       0
+             *     ]
+             */
+            offsets: number[];
+            /**
+             * Parameters
+             * @description Lengths and angles of the kinematics by their names; others are 0.
+             * @default {}
+             */
+            parameters: {
+                [key: string]: number;
+            };
+            /**
+             * Type
+             * @description Empty: none, positions of the machine are those of axes.
+             * @default
+             * @enum {string}
+             */
+            type: "" | "Kin_Gantry2" | "Kin_Gantry3" | "Kin_Gantry3C" | "Kin_GantryH2" | "Kin_GantryT2" | "Kin_5AxisGantry" | "Kin_Polar_Z" | "Kin_Scara2_Z" | "Kin_Scara3_Z" | "Kin_Bipod_Arm" | "Kin_Tripod_Linear" | "Kin_Tripod_Rotary" | "Kin_4AxisPalletizer" | "Kin_ArticulatedRobot_6DOF";
         };
         /**
          * GroupPanelStatus
