@@ -44,7 +44,7 @@ def test_parameters() -> None:
 
 
 def test_an_acknowledgement_is_for_one() -> None:
-    """CNCR-150: the next one at the same place waits to be seen; with bAcknM TRUE for ever each is passed at once."""
+    """CNCR-150: the next one at the same place is waited at; bAcknM TRUE for ever passes each at once."""
     with motion([Object(50.0), m(7), m(9), m(7), Object(50.0)]) as path:
         assert path.calls(160)["aM"][-1] == 7
         seen = []

@@ -1,4 +1,4 @@
-"""A path goes from a task that always runs to the bus task, which interrupts it anywhere: nothing is lost or doubled.
+"""A path from a task that always runs to the bus task, which interrupts it: nothing is lost or doubled.
 
 Spec CNCR-03, CNCR-05, CNCR-116, with threads of the host; `test_cnc_tasks.py` has every order of whole calls.
 """
