@@ -176,7 +176,7 @@ def test_the_axis_stands_behind_the_path(block: str) -> None:
 @pytest.mark.parametrize("block", ["ByPos", "ByPosVel"])
 @pytest.mark.parametrize("back", [False, True])
 def test_the_axis_stands_at_the_end_of_the_path(block: str, back: bool) -> None:
-    """CNCR-170: bWorking, which is bEnable, falls with the last set position; `back`: another path is begun."""
+    """CNCR-170: bWorking, which is bEnable, falls with the last set position; `back`: a path is begun."""
     with axis() as one:
         for place, enable in ((0.0, True), (0.4, True), (0.8, True), (1.0, False)):
             inputs = {"fSetPosition": place, "bEnable": enable}

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from tappet.lang.diagnostics import TABLE
 from tappet.translation.language import Language
+from tappet.translation.sentences import sentence
 from tappet.translation.templates import FIELD, Templates
 
 _KINDS = frozenset({"what", "verb", "needed", "given", "count", "expected", "where", "size", "place"})
@@ -73,6 +74,8 @@ def _fact(name: str, value: str, language: Language) -> str:
     found = phrase(value, language) if name in _KINDS or " " in value else value
     if found == value and name == "reason":
         found = _messages(language).find(value, partial(_said_in, language)) or value
+    if found == value and name == "text":
+        found = sentence(value, language)
     if name in _TOKENS and (token := _QUOTED.fullmatch(found)) is not None:
         return f"“{token[1]}”"
     return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from tappet.server.problems import Problem
@@ -16,10 +16,12 @@ PATIENCE_S = 60.0
 class Calculation:
     """Orders go to one process, one after the other; it starts with the first one."""
 
-    def __init__(self, command: Sequence[str], kind: str, what: str, advice: str) -> None:
-        """`kind`: begins the slugs of problems; `what` is computed; `advice`: for when that takes long."""
+    def __init__(
+        self, command: Sequence[str], kind: str, too_large: str, failed: Callable[[str], str]
+    ) -> None:
+        """`kind`: begins slugs of problems; `too_large` is said after PATIENCE_S, `failed` of a reason."""
         self._worker = WorkerProcess(command)
-        self._kind, self._what, self._advice = kind, what, advice
+        self._kind, self._too_large, self._failed = kind, too_large, failed
 
     async def ask(self, order: dict[str, Any]) -> bytes:
         """The JSON of an answer.
@@ -30,11 +32,9 @@ class Calculation:
             async with asyncio.timeout(PATIENCE_S):
                 outcome = await self._worker.ask(order)
         except TimeoutError:
-            detail = f"{self._what} could not be computed within {PATIENCE_S:g} s; {self._advice}."
-            raise Problem(503, f"{self._kind}-too-large", detail) from None
+            raise Problem(503, f"{self._kind}-too-large", self._too_large) from None
         except WorkerCrashedError as error:
-            detail = f"{self._what} could not be computed: {error}."
-            raise Problem(500, f"{self._kind}-failed", detail) from error
+            raise Problem(500, f"{self._kind}-failed", self._failed(str(error))) from error
         if (refusal := outcome.get("refusal")) is not None:
             fields = {} if refusal["line"] is None else {"line": refusal["line"]}
             raise Problem(422, refusal["kind"].replace("_", "-"), refusal["detail"], **fields)

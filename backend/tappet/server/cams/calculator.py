@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tappet.project.cams.table import CamTable
-from tappet.server.calculation import Calculation
+from tappet.server.calculation import PATIENCE_S, Calculation
 
 WORKER = (sys.executable, "-m", "tappet.server.cams.worker")
 
@@ -19,7 +19,12 @@ class CamCalculator:
     def __init__(self, cache: Path, command: Sequence[str] = WORKER) -> None:
         """`cache` is a folder of compiled objects."""
         self._cache = str(cache)
-        self._calculation = Calculation(command, "cam", "The cam", "try again with fewer points")
+        self._calculation = Calculation(
+            command,
+            "cam",
+            f"The cam could not be computed within {PATIENCE_S:g} s; try again with fewer points.",
+            lambda reason: f"The cam could not be computed: {reason}.",
+        )
 
     async def ask(self, do: str, cam: CamTable, **facts: Any) -> bytes:
         """The JSON of an answer. Raises the problems of `Calculation.ask`; 422 for what is no cam."""

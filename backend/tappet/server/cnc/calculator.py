@@ -9,7 +9,7 @@ from typing import Any
 
 from tappet.project.cnc.program import CncProgramData
 from tappet.project.cnc.settings import CncSettingsData
-from tappet.server.calculation import Calculation
+from tappet.server.calculation import PATIENCE_S, Calculation
 
 WORKER = (sys.executable, "-m", "tappet.server.cnc.worker")
 
@@ -20,7 +20,12 @@ class CncCalculator:
     def __init__(self, cache: Path, command: Sequence[str] = WORKER) -> None:
         """`cache` is a folder of compiled objects."""
         self._cache = str(cache)
-        self._calculation = Calculation(command, "cnc", "The CNC program", "try again with a part of it")
+        self._calculation = Calculation(
+            command,
+            "cnc",
+            f"The CNC program could not be computed within {PATIENCE_S:g} s; try again with a part of it.",
+            lambda reason: f"The CNC program could not be computed: {reason}.",
+        )
 
     async def ask(self, do: str, program: CncProgramData, settings: CncSettingsData, **facts: Any) -> bytes:
         """The JSON of an answer. Raises the problems of `Calculation.ask`; 422 for what cannot be run."""

@@ -8,8 +8,8 @@ from fastapi.responses import Response
 from starlette.concurrency import run_in_threadpool
 
 from tappet.project.cnc.program import CncProgramData
-from tappet.project.cnc.settings import CncSettingsData
 from tappet.project.store import Store
+from tappet.server.cnc.settings_beside import settings_beside
 from tappet.server.dependencies import ServicesDep, StoreDep, Viewer
 from tappet.server.paths.shapes import (
     ChosenElements,
@@ -107,18 +107,4 @@ def _program(store: Store, project_id: str, order: PathOrder) -> tuple[str, str]
     if not isinstance(item.data, CncProgramData):
         raise Problem(422, "no-cnc", f"'{item.name}' is a {item.kind}; only a CNC program has a path.")
     data = item.data if order.program is None else order.program
-    return data.model_dump_json(), _settings_beside(store, project_id, item.id).model_dump_json()
-
-
-def _settings_beside(store: Store, project_id: str, object_id: str) -> CncSettingsData:
-    """Of the application that a program is in; those of a new project where there are none."""
-    tree = store.tree(project_id)
-    parents = {item.id: item.parent_id for item in tree}
-    settings = {item.parent_id: item.id for item in tree if item.kind == "cnc_settings"}
-    place: str | None = object_id
-    while place is not None:
-        if place in settings:
-            data = store.get(project_id, settings[place]).data
-            return data if isinstance(data, CncSettingsData) else CncSettingsData()
-        place = parents.get(place)
-    return CncSettingsData()
+    return data.model_dump_json(), settings_beside(store, project_id, item.id).model_dump_json()
