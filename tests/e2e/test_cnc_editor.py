@@ -62,13 +62,13 @@ def test_text_and_table_are_one_program(page: Page, server: Server, program: tup
     page.keyboard.press("End")
     page.keyboard.press("Enter")
     page.keyboard.insert_text("N30 G77 X1")
-    expect(editor.get_by_role("status")).to_contain_text("Errors: 1")
+    expect(editor.get_by_role("status").filter(has_text="Errors")).to_contain_text("Errors: 1")
     expect(editor.locator(".squiggly-error")).to_be_visible()
     page.keyboard.press("End")
     for _ in range(len("77 X1")):
         page.keyboard.press("Backspace")
     page.keyboard.insert_text("1 X7")
-    expect(editor.get_by_role("status")).to_contain_text("Errors: 0")
+    expect(editor.get_by_role("status").filter(has_text="Errors")).to_contain_text("Errors: 0")
     expect(cell(page, 3, 0)).to_have_text("G1")
     expect(cell(page, 3, 2)).to_have_text("7")
 
@@ -138,6 +138,7 @@ def test_the_chain_of_the_settings_is_made_by_keys_and_buttons(
     expect(used.get_by_role("row")).to_have_count(4)
     offered.get_by_role("gridcell", name="SMC_SmoothPath").click()
     offered.press("Space")
+    offered.get_by_role("gridcell", name="SMC_ToolCorr").click()  # the row comes into view
     offered.get_by_role("gridcell", name="SMC_ToolCorr").dblclick()
     cells = used.get_by_role("row")
     expect(cells.nth(2)).to_contain_text("SMC_SmoothPath")

@@ -61,6 +61,8 @@ def contour(page: Page, server: Server) -> tuple[str, str]:
     with objects_stored(page):
         page.keyboard.insert_text(PROGRAM)
     drawn(page, 9)
+    pane_of(page).get_by_role("button", name="Look along negative Z and show the whole path").click()
+    expect(pane_of(page).locator("circle[data-line='7']")).to_be_visible()
     return path, object_id
 
 
@@ -117,6 +119,7 @@ def test_the_motion_is_played(page: Page, contour: tuple[str, str]) -> None:
     slider = motion.get_by_role("slider", name="Time [s]")
     slider.focus()
     page.keyboard.press("End")
+    page.keyboard.press("ArrowLeft")
     expect(motion).to_contain_text("Line 9")
     for _ in range(3):
         page.keyboard.press("PageDown")
