@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import asdict
 
 from tappet.cnc.commands import COMMANDS, LAST_M, LIMITLESS, M_WORDS, MODAL, MOST_SWITCHES, Command
 from tappet.cnc.letters import AXES, LETTERS
@@ -31,12 +30,12 @@ def table() -> str:
 
 
 def _command(command: Command) -> dict[str, object]:
-    facts = asdict(command)
     return {
         "letters": _ordered(command.words),
         "needs": _ordered(command.needs),
         "travels": command.travels,
-        "supported": not facts.get("refused"),
+        "probes": command.probes,
+        "numbers": [command.numbers[0], command.numbers[-1]] if command.numbers else None,
     }
 
 

@@ -59,6 +59,7 @@ const ALLOWED: Readonly<Record<string, string>> = {
   'workbench/libraries/model.ts interface': 'kind of an item of a library',
   'workbench/debugger/HaltedStack.tsx pou': 'a column of the call stack',
   'workbench/online/CallStackPanel.tsx pou': 'a column of the call stack',
+  'workbench/online/DownloadTerms.tsx persistent': 'a field of the answer to a login',
   'workbench/online/dialogs.tsx persistent': 'a field of the answer to a login',
   'workbench/online/exception.ts pou': 'a field of a frame of the call stack',
   'workbench/projectInfo/exampleText.ts axis_group': 'an example project',

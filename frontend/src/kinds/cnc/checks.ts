@@ -5,6 +5,7 @@ import {
   codeOf,
   G_CODES,
   isTravel,
+  type GCode,
   lettersOf,
   LIMITLESS,
   MODAL,
@@ -36,7 +37,10 @@ export type Rule =
   | 'noVelocity'
   | 'noArc'
   | 'variables'
-  | 'openingAngle';
+  | 'openingAngle'
+  | 'probe'
+  | 'probeSwitch'
+  | 'numberRange';
 
 export interface Finding {
   readonly rule: Rule;
@@ -57,6 +61,7 @@ export interface Conditions {
   readonly suppress: boolean;
 }
 
+const MOST_PROBES = 32_767;
 const LARGEST_ANGLE = 1080;
 const WHOLE: ReadonlySet<string> = new Set(['G', 'M', 'H']);
 
@@ -101,8 +106,7 @@ function wordFindings(block: Block): Finding[] {
     const { address, value } = word;
     if (!ADDRESSES.has(address) || LIMITLESS.has(address)) return [finding('unknownLetter', word, { letter: address })];
     if (value.kind === 'none') return [finding('missingValue', word, { letter: address })];
-    if (value.kind === 'expression' || address === 'PROBE')
-      return [finding('extension', word, { name: block.text.slice(word.at, word.end) })];
+    if (value.kind === 'expression') return [finding('extension', word, { name: block.text.slice(word.at, word.end) })];
     if (address === 'N')
       return block.number === null || word.at !== firstNumber(block) ? [finding('blockNumber', word)] : [];
     if (value.kind === 'number' && WHOLE.has(address) && !Number.isInteger(value.number))
@@ -124,7 +128,6 @@ function commandFindings(block: Block, act: Act): Finding[] {
   const known = code === null ? undefined : G_CODES.get(code);
   if (first?.address === 'G' && code !== null && Number.isInteger(code)) {
     if (known === undefined) return [...found, finding('unknownCode', first, { code: String(code) })];
-    if (!known.supported) return [...found, finding('extension', first, { name: `G${String(code)}` })];
   }
   if (act.kind === 'unknown' && first === undefined) found.push(finding('noTravel', range(block)));
   const letters = lettersOf(act);
@@ -145,7 +148,32 @@ function commandFindings(block: Block, act: Act): Finding[] {
         ? finding('needsCentre', first ?? range(block), { command: nameOfAct(act) })
         : finding('needs', first ?? range(block), { command: nameOfAct(act), letters: needs.join(' / ') }),
     );
+  if (known) found.push(...probeFindings(block, known), ...rangeFindings(block, known));
   return [...found, ...repeated(block), ...(act.kind === 'm' ? [] : switchFindings(block, code))];
+}
+
+/** Probes have a number; some commands end where their signal comes, and have no switch points then. */
+function probeFindings(block: Block, known: GCode): Finding[] {
+  const probe = wordOf(block, 'PROBE');
+  if (probe === undefined) return [];
+  const command = `G${String(known.code)}`;
+  if (!known.probes) return [finding('notTaken', probe, { letter: 'PROBE', command })];
+  const { value } = probe;
+  const isNumber =
+    value.kind !== 'number' || (Number.isInteger(value.number) && value.number >= 1 && value.number <= MOST_PROBES);
+  const wrong = isNumber ? [] : [finding('probe', probe, { most: String(MOST_PROBES) })];
+  const switches = block.words.filter(({ address }) => address === 'H' && known.letters.has('H'));
+  return [...wrong, ...switches.map((word) => finding('probeSwitch', word))];
+}
+
+/** L that is no flag or no axis. */
+function rangeFindings(block: Block, { code, numbers }: GCode): Finding[] {
+  const word = wordOf(block, 'L');
+  const [first, last] = numbers ?? [];
+  if (first === undefined || last === undefined || word?.value.kind !== 'number') return [];
+  const { number } = word.value;
+  if (Number.isInteger(number) && number >= first && number <= last) return [];
+  return [finding('numberRange', word, { command: `G${String(code)}`, first: String(first), last: String(last) })];
 }
 
 /** E may stand twice with other signs (GC-05); H, L and O go together as switch points; two commands have their own words. */

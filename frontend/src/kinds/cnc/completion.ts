@@ -52,7 +52,7 @@ function withoutWordAt(block: Block, start: number): Block {
 
 function commandsFor(used: ReadonlySet<string>): Proposal[] {
   if (used.has('G') || used.has('M')) return [];
-  const codes = [...G_CODES.values()].filter(({ supported }) => supported);
+  const codes = [...G_CODES.values()];
   return codes.map(({ code, needs }) => ({
     label: `G${String(code)}`,
     insert: `G${String(code)}${needs.length > 0 ? ' ' : ''}`,

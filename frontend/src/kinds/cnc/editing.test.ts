@@ -112,7 +112,8 @@ describe('proposals', () => {
     expect(labels('G4 ')).toEqual(['T']);
     expect(labels('G2 X1 ')).toEqual(expect.arrayContaining(['Y', 'R', 'I', 'T']));
     expect(labels('G2 X1 ')).not.toContain('X');
-    expect(labels('G31')).not.toContain('G31');
+    expect(labels('G31')).toContain('G31');
+    expect(labels('G32')).not.toContain('G32');
     expect(labels('(note')).toEqual([]);
   });
 });

@@ -25,7 +25,7 @@ export function distance(a: string, b: string): number {
 
 /** The known codes that look most like a number that is none. */
 export function likelyCodes(written: string): number[] {
-  const codes = [...G_CODES.values()].filter(({ supported }) => supported).map(({ code }) => code);
+  const codes = [...G_CODES.keys()];
   const ranked = codes.map((code) => ({ code, far: distance(written, String(code)) }));
   const least = Math.min(...ranked.map(({ far }) => far));
   return least > 1
@@ -76,6 +76,9 @@ export function fixesOf(program: CncProgram, found: PlacedFinding): Fix[] {
     case 'twice':
     case 'manySwitches':
     case 'unknownLetter':
+    case 'probe':
+    case 'probeSwitch':
+    case 'numberRange':
     case 'variables':
       return [remove()];
     case 'openComment':

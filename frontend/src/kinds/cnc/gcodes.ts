@@ -18,8 +18,6 @@ export const MOST_SWITCHES = dialect.mostSwitches;
 
 export interface GCode {
   readonly code: number;
-  /** The decoder has it. */
-  readonly supported: boolean;
   /** It stays for blocks without one (GC-06). */
   readonly travels: boolean;
   /** Those that are proposed; modal values stand in any block. */
@@ -28,6 +26,10 @@ export interface GCode {
   readonly needs: readonly string[];
   /** The table has no element for it (CNC-47). */
   readonly textOnly: boolean;
+  /** A block may have a word PROBE: its movement ends where a signal comes. */
+  readonly probes: boolean;
+  /** The first and the last number that L may be, where no others make sense. */
+  readonly numbers: readonly number[] | null;
 }
 
 /** Commands with an element in the table (CNC-48). */
@@ -40,10 +42,11 @@ const SET_BY_D: ReadonlySet<number> = new Set([41, 42, 51, 52]);
 
 export const G_CODES: ReadonlyMap<number, GCode> = new Map(
   Object.entries(dialect.commands)
-    .map(([name, { letters, needs, travels, supported }]): [number, GCode] => {
+    .map(([name, { letters, needs, travels, probes, numbers }]): [number, GCode] => {
       const code = Number(name);
       const possible = new Set([...letters, ...(travels ? MODAL : SET_BY_D.has(code) ? ['D'] : [])]);
-      return [code, { code, supported, travels, letters: possible, needs, textOnly: !IN_TABLE.has(code) }];
+      const textOnly = !IN_TABLE.has(code);
+      return [code, { code, travels, letters: possible, needs, textOnly, probes, numbers }];
     })
     .sort(([a], [b]) => a - b),
 );

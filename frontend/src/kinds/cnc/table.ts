@@ -11,9 +11,7 @@ export type Column = Schemas['TableColumn']['name'];
 
 /** The types that a row can be made: commands that the table has elements for (CNC-48), and M functions. */
 export const ROW_TYPES: readonly string[] = [
-  ...[...G_CODES.values()]
-    .filter(({ textOnly, supported }) => supported && !textOnly)
-    .map(({ code }) => `G${String(code)}`),
+  ...[...G_CODES.values()].filter(({ textOnly }) => !textOnly).map(({ code }) => `G${String(code)}`),
   'M',
 ];
 
