@@ -109,7 +109,7 @@ def test_a_word_is_explained_and_the_properties_open(page: Page, program: tuple[
 
 
 def test_the_info_and_the_code_of_a_program(page: Page, server: Server, program: tuple[str, str]) -> None:
-    """CNC-20, CNC-21, EX-01: 11 s by the blocks of the controller; code only without errors."""
+    """CNC-20, CNC-21, cnc EX-01: 11 s by the blocks of the controller; code only without errors."""
     path, object_id = program
     stored = fetch(page, server, "GET", f"{path}/objects/{object_id}")
     data = {**stored["data"], "implementation": "N0 G1 X100 F10 E10 E-10"}

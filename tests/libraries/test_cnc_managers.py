@@ -1,4 +1,4 @@
-"""SM3_CNC: the lists of the CNC objects of an application. Spec DAT-02, EX-10, EX-11."""
+"""SM3_CNC: the lists of the CNC objects of an application. Spec DAT-02, cnc EX-10, EX-11."""
 
 from tests.libraries.st_program import run
 

@@ -60,7 +60,7 @@ def test_the_example_of_the_catalog() -> None:
 
 
 def test_a_corner_a_dwell_and_an_m_function() -> None:
-    """Spec EX-32: 1.5 s and 1.5 s; G4 T2 in between is a standstill, an M function none of its own."""
+    """Spec cnc_runtime EX-32: 1.5 s and 1.5 s; G4 T2 in between is a standstill; an M function is none."""
     dwell = Object(kind=MCOMMAND, members={"iHelpID[0]": -1, "dP1": 2.0})
     found = segments([Object(50.0), dwell, Object(dy=50.0)])
     assert [kind for kind, *_ in found] == [ACCEL, CONSTANT, DECEL, STOP, ACCEL, CONSTANT, DECEL]

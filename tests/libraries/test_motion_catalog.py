@@ -27,7 +27,7 @@ BEYOND = {
     *("AxisPanel", "AxisPanelCommand", "AxisPanelPhase", "AxisPanelState"),
     *("CiA402State", "CiA402StateOf", "CiA402Drive", "CiA402Control"),
     "AXIS_REF_POSCONTROL_SM3",
-    *("GroupedAxis", "IAxisGroup"),
+    *("GroupedAxis", "IAxisGroup", "LedAxis", "WatchedAxis"),
     *("SMC_CAMSWITCH_TOGGLE_EVENT", "SMC_CAMSWITCH_TRACK_EVENTS"),
     *("DriveIn", "DriveOut", "SMC3_CaptureDescription", "SimulatedDrive", "SimulatedDriveSettings"),
 }

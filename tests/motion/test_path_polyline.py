@@ -148,7 +148,7 @@ def test_z_in_an_s_shape() -> None:
 
 
 def test_length_of_worked_examples() -> None:
-    """EX-16, EX-20."""
+    """cnc EX-16, EX-20."""
     objects = [arc((150, 100), 50, 180, 180), ellipse((0, 0), (100, 50), 0, 0, -90)]
     path = polyline([geo_info(objects)], tolerance_for(2))
     for number, length in enumerate((157.0796, 121.1056)):

@@ -50,7 +50,7 @@ def chain(*blocks: tuple[str, dict[str, str]], **data: Any) -> CncSettingsData:
     ],
 )
 def test_durations_are_those_of_the_examples(service: PathService, text: str, seconds: float) -> None:
-    """CNC EX-01, EX-23: the trapezoid in closed form, to a cycle for each stop."""
+    """cnc EX-01, EX-23: the trapezoid in closed form, to a cycle for each stop."""
     motion = service.interpolated(program(text), PLAIN)
     assert motion.fault is None
     assert motion.duration_s == pytest.approx(seconds, abs=2 * motion.interval_s)
@@ -59,7 +59,7 @@ def test_durations_are_those_of_the_examples(service: PathService, text: str, se
 
 
 def test_the_first_example_says_what_the_dialog_shows(service: PathService) -> None:
-    """CNC-20, EX-01: one object of length 100, 11.0 s; the end is the program's."""
+    """CNC-20, cnc EX-01: one object of length 100, 11.0 s; the end is the program's."""
     data = program("N0 G1 X100 F10 E10 E-10")
     path = service.objects_of(data)
     assert (len(path.rows), path.length, path.fault) == (1, 100.0, None)
@@ -69,7 +69,7 @@ def test_the_first_example_says_what_the_dialog_shows(service: PathService) -> N
 
 
 def test_preprocessing_runs_the_blocks_of_the_settings(service: PathService) -> None:
-    """CNCS-03, CNC EX-12: corners at distance 2 become splines; the original path stays as it is."""
+    """CNCS-03, cnc EX-12: corners at distance 2 become splines; the original path stays as it is."""
     text = "N0 G1 X10 Y0 F100\nN10 G51 D2\nN20 G1 X10 Y20\nN30 G1 X20 Y20\nN40 G1 X20 Y0\nN50 G50\nN60 G1 X30"
     data = program(text)
     assert service.objects_of(data).rows["iMoveType"].tolist() == [LIN] * 5
@@ -109,7 +109,7 @@ def test_a_chain_that_the_library_does_not_have_is_refused(service: PathService)
     ],
 )
 def test_faults_have_a_code_and_a_line(service: PathService, text: str, code: str, line: int | None) -> None:
-    """CNC EX-32: what stops the blocks stops the path, at its line."""
+    """cnc EX-32: what stops the blocks stops the path, at its line."""
     fault = service.objects_of(program(text)).fault
     assert fault is not None
     assert fault.code == code
@@ -130,7 +130,7 @@ def test_a_program_that_never_moves_does_not_hang(service: PathService) -> None:
 
 
 def test_variables_have_their_offline_values(service: PathService) -> None:
-    """CNC-17, CNC EX-18: a counter in a variable makes a loop of four lines."""
+    """CNC-17, cnc EX-18: a counter in a variable makes a loop of four lines."""
     text = "N0 G36 O$GVL.n$ D4\nN10 G91\nN20 G1 X$step$ F100\nN30 G37 O$GVL.n$ D-1\nN40 G20 L20 K$gvl.N$"
     path = service.objects_of(program(text, offline_values=[{"name": "STEP", "value": 5.0}]))
     assert path.fault is None
@@ -139,7 +139,7 @@ def test_variables_have_their_offline_values(service: PathService) -> None:
 
 
 def test_suppressed_steps_and_the_start_position_count(service: PathService) -> None:
-    """CNC EX-30, CNC-16."""
+    """cnc EX-30, CNC-16."""
     text = "N0 G1 X10 F10\n/N10 G1 Y10\nN20 G1 X20"
     whole = service.objects_of(program(text, start={"x": 4.0})).rows
     assert whole["piStartPos.dX"][0] == 4.0

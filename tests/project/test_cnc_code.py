@@ -73,7 +73,7 @@ MANAGED = """    pQueue : POINTER TO SM3_CNC.SMC_OUTQUEUE;
 
 
 def test_the_managers_know_the_programs_of_each_mode() -> None:
-    """CNC EX-10, EX-11: two queues and one program of words; what is excluded is not there."""
+    """cnc EX-10, EX-11: two queues and one program of words; what is excluded is not there."""
     project = project_with(
         QUEUES,
         MANAGED,
@@ -191,7 +191,7 @@ def test_what_is_wrong_is_said_at_its_line_and_word() -> None:
 
 
 def test_what_only_the_blocks_find_is_said_too() -> None:
-    """CNC EX-32: no velocity, an acceleration of 0: the queue cannot be made."""
+    """cnc EX-32: no velocity, an acceleration of 0: the queue cannot be made."""
     for text, line in (("(start)\nN0 G1 X10", 1), ("N0 G1 X10 F10 E0", 0)):
         project = project_with(
             "n := 1;", "    n : INT;", Example={"implementation": text, "compile_mode": "out_queue"}

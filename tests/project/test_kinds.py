@@ -28,6 +28,7 @@ OTHER_WORDS = {
     "project/store/tables.py": "columns of the database",
     "server/auth/tables.py": "columns of the database",
     "manual/words.py": "headings of pages",
+    "cli/bench.py": "benchmarks",
 }
 """Where the same words mean something else than a kind of object, and what."""
 

@@ -19,7 +19,11 @@ def everything() -> Project:
         places = kind.placement.parents
         if "application" not in places or kind.naming.style == "fixed" or kind.name == "application":
             continue
-        if kind.name in ("axis_group", "cam"):  # of types of libraries: test_axis_groups, test_cams
+        if kind.name in (
+            "axis_group",
+            "cam",
+            "cnc",
+        ):  # of types of libraries: test_axis_groups, test_cams, test_cnc_code
             continue
         for subkind in (*kind.templates,) or (None,):
             project, added = edit.add_object(project, application.id, kind.name, subkind=subkind)

@@ -16,7 +16,7 @@ def program(tmp_path: Path) -> Iterator[Interpreter]:
 
 
 def test_example_of_subprograms(program: Interpreter) -> None:
-    """Spec EX-31: a line, two half circles that come back; 10 and 125.6637 long."""
+    """Spec cnc EX-31: a line, two half circles that come back; 10 and 125.6637 long."""
     found = program.run(
         {
             "main.cnc": "N0 G1 X10 F50\nN10 ARCS{20}",
@@ -129,7 +129,7 @@ def test_what_the_reader_refuses(program: Interpreter) -> None:
 
 
 def test_what_the_interpreter_refuses(program: Interpreter) -> None:
-    """Spec EX-32 and results that are no numbers: number, line, column and word; what came before stays."""
+    """Spec cnc EX-32 and results that are no numbers: number, line, column, word; what came before stays."""
     cases = {
         "G1 X5\nN0 G77 X1": (
             "SMC_DEC_INVALID_SYNTAX",

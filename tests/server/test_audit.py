@@ -79,6 +79,14 @@ EXEMPT = {
     "open_comparison": READS,
     "open_comparison_with_files": READS,
     "close_comparison": "ends a question",
+    "cnc_info": READS,
+    "cnc_code": READS,
+    "begin_path_view": "a view of its own, of what is read",
+    "draw_path": READS,
+    "draw_in_another_way": READS,
+    "choose_line": READS,
+    "pick_element": READS,
+    "end_path_view": "ends a question",
 }
 """Routes with a method that may change something, and why they are in the audit log only when refused."""
 

@@ -34,7 +34,7 @@ def order(program: str, text: str, **data: Any) -> dict[str, Any]:
 
 
 def test_the_info_of_the_first_example(admin: TestClient, place: tuple[str, str, str]) -> None:
-    """CNC EX-01: one line, one object, length 100, 11.0 s."""
+    """cnc EX-01: one line, one object, length 100, 11.0 s."""
     url, program, _ = place
     answer = admin.post(f"{url}/cnc/info", json=order(program, "N0 G1 X100 F10 E10 E-10"))
     assert answer.status_code == 200, answer.text

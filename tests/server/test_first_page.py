@@ -36,6 +36,7 @@ async def main():
 asyncio.run(main())
 """
 ROOMS = {
+    "cnc",
     "iec",
     "project",
     "server",
@@ -54,8 +55,8 @@ CODE = {
     "symbol_types", "values", "variable_changes",
 }  # fmt: skip
 """How a package and the values in a running one are read."""
-MOTION = {"axis_measurement", "loops"}
-"""What is asked of a controller to measure an axis; a process of its own computes with the answer."""
+MOTION = {"axis_measurement", "loops", "paths"}
+"""What is asked of a controller to measure an axis, and words for the colours of a path; others compute."""
 UNWANTED = {
     "llvmlite", "lsprotocol", "httpx", "viser", "numpy", "pyarrow", "rich", "sqlalchemy.dialects.postgresql",
     "tappet.libraries.catalog", "tappet.project.exchange.importing", "tappet.project.exchange.plcopen_write",

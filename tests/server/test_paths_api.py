@@ -76,7 +76,7 @@ def test_a_path_is_drawn_chosen_picked_and_moved_along(admin: TestClient, cnc: t
     assert samples["place"][-1] == pytest.approx([110, 40, 5], abs=1e-6)
     assert max(samples["velocity"]) == pytest.approx(10, rel=1e-6)
     assert max(abs(value) for value in samples["acceleration"]) <= 10 * 1.001
-    # EX-01: a second more at each stop, to accelerate and brake at 10 u/s².
+    # cnc EX-01: a second more at each stop, to accelerate and brake at 10 u/s².
     assert samples["duration"] == pytest.approx(1 + 1 + 10 + 1 + 2 * math.pi + 0.5 + 1 + 0.2, abs=3)
 
     with admin.websocket_connect(SOCKETS + page, subprotocols=[f"viser-v{viser.__version__}"]) as socket:

@@ -99,7 +99,8 @@ FOR_OTHERS = {
     f"The bus task {PLACE} of the axis {PLACE} does not exist; choose another bus task",
     f"The bus task {PLACE} of the axis {PLACE} is not cyclic; set values are computed for a fixed time, "
     "so choose a cyclic task",
-    f"{{error '{PLACE}'}}", f"{{{PLACE} cnc '{PLACE}'}}", "{error cnc ", f"{{{PLACE} cam '{PLACE}: {PLACE}'}}",
+    f"{{error '{PLACE}'}}", f"{{{PLACE} cnc '{PLACE}'}}", "{error cnc ",
+    f"{{{PLACE} cam '{PLACE}: {PLACE}'}}",
     # halves of sentences that are in the table as wholes
     "placeholders are ", "data breakpoint",
     "; look-around and back references cannot be searched for", "invalid perl operator",

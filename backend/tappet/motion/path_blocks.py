@@ -10,6 +10,7 @@ from tappet.libraries.catalog import Item, NamedValue, Pin, items
 
 LIBRARY = "SM3_CNC"
 INPUT, OUTPUT, EXECUTE = "poqDataIn", "poqDataOut", "bExecute"
+CYCLE = "dwIpoTime"
 SIZE, BUFFER = "nSizeOutQueue", "pbyBufferOutQueue"
 _WIRED = frozenset((INPUT, EXECUTE, "bAbort", "bAppend", SIZE, BUFFER))
 """Inputs that the chain itself sets."""
@@ -48,7 +49,10 @@ class PathBlock:
 
 @cache
 def path_blocks() -> dict[str, PathBlock]:
-    """All blocks by name: those that start with bExecute, take poqDataIn and give poqDataOut."""
+    """All blocks by name: those that start with bExecute, take poqDataIn and give poqDataOut.
+
+    What has a cycle time runs the path, or tells how it will be run.
+    """
     found: dict[str, Item] = {}
     for name in (LIBRARY, "SM3_Basic"):
         for item in items(libraries.load(name)):
@@ -65,6 +69,7 @@ def path_blocks() -> dict[str, PathBlock]:
         and _has(item.inputs, EXECUTE)
         and _has(item.inputs, INPUT)
         and _has(item.outputs, OUTPUT)
+        and not _has(item.inputs, CYCLE)
         and not item.in_out
     }
 

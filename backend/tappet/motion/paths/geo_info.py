@@ -53,6 +53,12 @@ GEO_INFO = _aligned(
         ("adZ", "<f8", 4),
         ("v4", _aligned(_VECTOR)),
         ("v5", _aligned(_VECTOR)),
+        ("vToolLength", _aligned(_VECTOR)),
+        *((name, "<f8", 3) for name in ("adSlopeStart", "adSlopeEnd")),
+        *((name, "<u2") for name in ("wCubic", "wSmoothAxes")),
+        ("dwFlags", "<u4"),
+        ("iProbe", "<i2"),
+        ("pStopped", "<u8"),
         ("pPassed", "<u8"),
     ]
 )

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
+from tappet.motion.paths.colouring import Colouring
 from tappet.motion.paths.geo_info import (
     CCLW,
     CLW,
@@ -19,8 +19,6 @@ from tappet.motion.paths.geo_info import (
 )
 from tappet.motion.paths.polyline import Polyline
 
-Colouring = Literal["kind", "velocity", "acceleration", "curvature"]
-COLOURINGS: tuple[Colouring, ...] = get_args(Colouring)
 Rgb = tuple[int, int, int]
 Colours = npt.NDArray[np.uint8]
 

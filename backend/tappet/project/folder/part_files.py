@@ -11,7 +11,7 @@ from tappet.project.folder.codec import placed
 from tappet.project.folder.texts import Parts, declaration_line, implementation_line
 from tappet.project.kind_registry import kinds
 from tappet.project.model import Project, ProjectObject
-from tappet.project.object_kind import IecText
+from tappet.project.object_kind import IecText, JsonFile
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +34,19 @@ def part_files(project: Project, root: Path) -> list[PartOfFile]:
         kind = kinds().get(item.kind)
         if kind is not None and isinstance(kind.folder, IecText):
             found += _parts(item, kind.folder, root / place)
+        elif kind is not None and isinstance(kind.folder, JsonFile):
+            found += _texts_apart(item, kind.folder, root / place)
     return found
+
+
+def _texts_apart(item: ProjectObject, form: JsonFile, place: Path) -> Iterator[PartOfFile]:
+    """Texts that have a file of their own beside that of the data."""
+    for field, ending in form.texts.items():
+        text = getattr(item.data, field, None)
+        if isinstance(text, str) and text:
+            yield PartOfFile(
+                place.with_name(f"{place.name}.{ending}"), item.id, field, 0, text.count("\n") + 1
+            )
 
 
 def _parts(item: ProjectObject, form: IecText, place: Path) -> Iterator[PartOfFile]:

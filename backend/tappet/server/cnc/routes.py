@@ -5,11 +5,11 @@ from __future__ import annotations
 from fastapi.responses import Response
 from starlette.concurrency import run_in_threadpool
 
-from tappet.motion.path_blocks import path_blocks
+from tappet.project.cnc.program import CncProgramData
 from tappet.project.cnc.settings import CncSettingsData
 from tappet.project.store import Store
 from tappet.server.cnc.settings_beside import settings_beside
-from tappet.server.cnc.shapes import CncBlock, CncBlocks, CncCode, CncInfo, CncOrder
+from tappet.server.cnc.shapes import CncBlocks, CncCode, CncInfo, CncOrder
 from tappet.server.dependencies import ServicesDep, StoreDep, Viewer
 from tappet.server.routing import Router
 from tappet.server.spoken import LanguageDep
@@ -45,11 +45,13 @@ async def cnc_code(
 
 
 @router.get("/blocks", response_model=CncBlocks)
-async def cnc_blocks(project_id: str, who: Viewer, store: StoreDep, language: LanguageDep) -> CncBlocks:
+async def cnc_blocks(
+    project_id: str, who: Viewer, store: StoreDep, services: ServicesDep, language: LanguageDep
+) -> Response:
     """The blocks of path preprocessing that the library SM3_CNC offers (CNCS-08, CNCS-09)."""
     await run_in_threadpool(store.project, project_id)
-    blocks = await run_in_threadpool(path_blocks)
-    return CncBlocks(blocks=[CncBlock.of(block).in_language(language) for block in blocks.values()])
+    answer = await services.cnc.ask("blocks", CncProgramData(), CncSettingsData(), name="", language=language)
+    return Response(answer, media_type=JSON)
 
 
 async def _asked(

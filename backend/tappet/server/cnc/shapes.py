@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Self
 
 from pydantic import ConfigDict, Field
 
-from tappet.motion.path_blocks import LIBRARY
+from tappet.project.cnc.code import LIBRARY
 from tappet.project.cnc.program import CncProgramData
 from tappet.project.data import MAX_TEXT
 from tappet.server.shapes import Reply, Request

@@ -12,15 +12,16 @@ from tappet.cnc.checks import check
 from tappet.cnc.parser import parse
 from tappet.libraries import load
 from tappet.motion.generated_cnc import FaultyProgramError, generated_code
-from tappet.motion.path_blocks import LIBRARY
+from tappet.motion.path_blocks import LIBRARY, path_blocks
 from tappet.motion.path_service import Motion, PathFault, PathObjects, PathService, PathSettingsError
 from tappet.project.cnc.code import program_name
 from tappet.project.cnc.program import CncProgramData
 from tappet.project.cnc.settings import CncSettingsData
-from tappet.server.cnc.shapes import CncCode, CncFault, CncInfo, CncPathFacts
+from tappet.server.cnc.shapes import CncBlock, CncBlocks, CncCode, CncFault, CncInfo, CncPathFacts
 from tappet.server.shapes import Reply
 from tappet.server.spoken import in_language
 from tappet.server.worker_loop import serve
+from tappet.translation.language import Language
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +30,7 @@ class _Order:
     program: CncProgramData
     settings: CncSettingsData
     paths: PathService
+    language: Language
 
 
 class CncWorker:
@@ -46,6 +48,7 @@ class CncWorker:
                     CncProgramData.model_validate_json(order["program"]),
                     CncSettingsData.model_validate_json(order["settings"]),
                     self._service(order["cache"]),
+                    order["language"],
                 )
             )
         except (PathSettingsError, FaultyProgramError) as error:
@@ -85,6 +88,13 @@ def code(order: _Order) -> CncCode:
     return CncCode(text=generated_code(order.name, order.program, order.settings, order.paths))
 
 
+def blocks(order: _Order) -> CncBlocks:
+    """The shape CncBlocks, in the language of the order."""
+    return CncBlocks(
+        blocks=[CncBlock.of(block).in_language(order.language) for block in path_blocks().values()]
+    )
+
+
 def _facts(path: PathObjects, motion: Motion) -> CncPathFacts:
     fault = path.fault or motion.fault
     duration = motion.duration_s if fault is None else None
@@ -100,7 +110,7 @@ def _fault(fault: PathFault) -> CncFault:
     return CncFault(message=fault.message, line=fault.line, column=fault.column, length=fault.length)
 
 
-_ANSWERS: dict[str, Callable[[_Order], Reply]] = {"info": info, "code": code}
+_ANSWERS: dict[str, Callable[[_Order], Reply]] = {"info": info, "code": code, "blocks": blocks}
 
 
 if __name__ == "__main__":

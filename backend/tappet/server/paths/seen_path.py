@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from tappet.motion.path_service import Motion, PathFault, PathObjects, PathService
+from tappet.motion.path_service import Motion, PathFault, PathObjects, PathService, PathSettingsError
 from tappet.motion.paths.compiled_rows import as_objects
 from tappet.motion.paths.geo_info import INITPOS, LINADDAXES, MCOMMAND, Numbers
 from tappet.motion.paths.levels import Levels
@@ -155,7 +155,8 @@ class SeenPath:
 
     def _moved(self) -> Motion:
         if self._motion is None or self._motion_of != self._looks.preprocessed:
-            assert self._program is not None, "a program was taken"
+            if self._program is None:
+                raise PathSettingsError("No program is drawn in the view yet; draw one first")
             self._motion_of = self._looks.preprocessed
             self._motion = self._service.interpolated(
                 self._program, self._settings, preprocessing=self._looks.preprocessed

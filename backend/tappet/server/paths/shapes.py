@@ -6,12 +6,13 @@ from typing import Annotated, ClassVar
 
 from pydantic import ConfigDict, Field, StrictInt
 
-from tappet.motion.paths.shades import Colouring
+from tappet.motion.paths.colouring import Colouring
 from tappet.project.cnc.program import CncProgramData
+from tappet.project.data import MAX_TEXT
 from tappet.server.shapes import Reply, Request
 
 Place = Annotated[list[float], Field(min_length=3, max_length=3, description="X, Y and Z [u].")]
-TextLine = Annotated[StrictInt, Field(ge=0, description="Line of the text, from 0.")]
+TextLine = Annotated[StrictInt, Field(ge=0, le=MAX_TEXT, description="Line of the text, from 0.")]
 
 
 class PathLooks(Request):
