@@ -106,6 +106,6 @@ function focusFirstField(event: Event): void {
     dialog;
   if (!target) return;
   event.preventDefault();
-  target.focus();
+  target.focus({ preventScroll: true }); // What is chosen further down has come into view
   if (target instanceof HTMLInputElement) target.select();
 }
