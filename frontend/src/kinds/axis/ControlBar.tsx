@@ -3,12 +3,11 @@ import { useText } from '@/i18n';
 import { Button } from '@/ui/Button';
 import { confirm } from '@/ui/dialogs';
 import { notifyError } from '@/ui/notices';
-import { useCommandContext } from '@/workbench/useCommandContext';
 import type { OnlineSession } from '@/workbench/onlineSession';
-import { atLeast } from '@/workbench/rights';
 import styles from './Axis.module.css';
 import type { AxisControl } from './control';
 import { panelPath, useShown } from './live';
+import { useMotionRefusal } from './useMotionRefusal';
 
 export interface Reasons {
   /** Why nobody can control the axis from here. */
@@ -22,17 +21,8 @@ export interface Reasons {
 /** Why an axis cannot be controlled, in the words of the user. */
 export function useControlReasons(session: OnlineSession, name: string, control: AxisControl): Reasons {
   const t = useText();
-  const { role } = useCommandContext();
   const state = useShown(session.runtimeId, `${panelPath(name)}.eState`);
-  const blocked = !atLeast(role, 'operator')
-    ? t('axis.needsOperator')
-    : session.lostSince !== null
-      ? t('axis.noConnection')
-      : session.past !== null
-        ? t('reason.past')
-        : session.runtime?.state !== 'run'
-          ? t('axis.notRunning')
-          : null;
+  const blocked = useMotionRefusal(session);
   const others = state !== null && state !== 'Free' && !control.mine ? t('axis.othersControl') : null;
   const inControl = blocked ?? (control.mine && state === 'Control' ? null : t('axis.needsControl'));
   return { blocked, others, inControl };

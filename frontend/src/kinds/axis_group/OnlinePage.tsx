@@ -11,8 +11,6 @@ import { Empty } from '@/ui/Empty';
 import { Facts } from '@/ui/Facts';
 import { notifyError } from '@/ui/notices';
 import type { OnlineSession } from '@/workbench/onlineSession';
-import { atLeast } from '@/workbench/rights';
-import { useCommandContext } from '@/workbench/useCommandContext';
 import axisStyles from '../axis/Axis.module.css';
 import { ErrorBox } from '../axis/ErrorBox';
 import { axisPath, useExists, useShown } from '../axis/live';
@@ -20,6 +18,7 @@ import { NotLoggedIn } from '../axis/NotLoggedIn';
 import { StateText } from '../axis/StateDiagram';
 import { StateDrawing } from '../axis/StateDrawing';
 import { Fact } from '../axis/StatusPage';
+import { useMotionRefusal } from '../axis/useMotionRefusal';
 import styles from './AxisGroup.module.css';
 import { groupPath, panelPath } from './live';
 import { MEMBERS, PLACES } from './queue';
@@ -134,16 +133,7 @@ function Online({ session, name, axes }: OnlineProps & { session: OnlineSession 
 
 function Acts({ session, name }: { session: OnlineSession; name: string }) {
   const t = useText();
-  const { role } = useCommandContext();
-  const blocked = !atLeast(role, 'operator')
-    ? t('axis.needsOperator')
-    : session.lostSince !== null
-      ? t('axis.noConnection')
-      : session.past !== null
-        ? t('reason.past')
-        : session.runtime?.state !== 'run'
-          ? t('axis.notRunning')
-          : null;
+  const blocked = useMotionRefusal(session);
   const steer = (action: (typeof ACTIONS)[number]['action']) =>
     void api
       .post('/api/v1/runtimes/{runtime_id}/axis_groups/{group}/panel', {
